@@ -1,0 +1,50 @@
+// The low-level controller: Kalman filter, integrator and state feedback on the LIPM, eqs. (5)-(8).
+#pragma once
+
+#include "engine/lipm.h"
+#include "engine/parameters.h"
+#include "engine/support_polygon.h"
+
+namespace stagger::engine {
+
+/// What the controller is to track this tick.
+struct LqgReference {
+  Vec2 com = Vec2::Zero();
+  Vec2 dcm = Vec2::Zero();
+  Vec2 zmp = Vec2::Zero();  ///< fed forward: without it eq. (8) as printed lags by metres
+};
+
+/// Both axes at once; they share the gains. The estimator is fed with the clamped ZMP, so that it
+/// knows what the foot really did, and the integrator stops while the ZMP is clamped.
+class Lqg {
+ public:
+  /// Throws std::invalid_argument when the weights have no stabilising gain.
+  explicit Lqg(const Parameters& parameters);
+
+  /// Forgets the past; the estimate starts at the first measurement.
+  void reset() { started_ = false; }
+
+  /// Takes the measured CoM and DCM into the estimate. Call once a tick, before control().
+  void estimate(const Vec2& com, const Vec2& dcm);
+
+  /// ZMP command inside the polygon, and the prediction for the next tick. `act` off leaves the
+  /// ZMP at its reference (the ankle strategy is switched off).
+  Vec2 control(const LqgReference& reference, const SupportPolygon& polygon, bool act,
+               bool integrate);
+
+  Vec2 com() const { return state_.row(0); }
+  Vec2 dcm() const { return state_.row(1); }
+  const Eigen::RowVector3d& feedback_gain() const { return feedback_; }
+  const Eigen::Matrix2d& estimator_gain() const { return estimator_; }
+
+ private:
+  double tick_;
+  DiscreteLipm lipm_;
+  Eigen::RowVector3d feedback_;  ///< of [CoM error, DCM error, integral of CoM error]
+  Eigen::Matrix2d estimator_;
+  Eigen::Matrix2d state_ = Eigen::Matrix2d::Zero();  ///< rows CoM, DCM; columns x, y
+  Vec2 integral_ = Vec2::Zero();
+  bool started_ = false;
+};
+
+}  // namespace stagger::engine

@@ -1,0 +1,51 @@
+// The commands, one file each. All return the process's exit code.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "engine/parameters.h"
+#include "server/cli/folders.h"
+#include "sim/plant/plant.h"
+
+namespace stagger::server {
+
+struct ServeOptions {
+  std::string robot = "kasaei";
+  std::string plant = "bullet";
+  std::uint64_t seed = 1;
+  bool stand = false;
+  std::string host = "127.0.0.1";
+  int port = 8080;
+  bool allow_remote = false;
+  std::size_t stream_clients = 64;
+  std::string log_level = "info";
+};
+
+struct RunOptions {
+  std::string robot;
+  std::string plant = "bullet";
+  std::uint64_t seed = 1;
+  double seconds = 60.0;
+  engine::WalkCommand walk;
+  bool json = false;
+};
+
+struct TrialOptions {
+  std::string spec;  ///< a file, or "-" for standard input
+};
+
+struct RobotsOptions {
+  bool json = false;
+};
+
+/// Serves the dashboard, the API and the stream until SIGTERM or SIGINT.
+int serve_command(const ServeOptions& options, const Folders& folders);
+/// Walks without a server, as fast as possible.
+int run_command(const RunOptions& options, const Folders& folders);
+/// One trial from its specification.
+int trial_command(const TrialOptions& options, const Folders& folders);
+/// Lists the robots.
+int robots_command(const RobotsOptions& options, const Folders& folders);
+
+}  // namespace stagger::server

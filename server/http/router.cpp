@@ -1,0 +1,102 @@
+#include "server/http/router.h"
+
+#include <spdlog/spdlog.h>
+
+#include <optional>
+#include <set>
+
+#include "server/http/problem.h"
+
+namespace stagger::server {
+namespace {
+
+std::vector<std::string> split(const std::string& path) {
+  std::vector<std::string> parts;
+  std::size_t start = 1;  // behind the leading slash
+  while (start <= path.size()) {
+    const std::size_t slash = std::min(path.find('/', start), path.size());
+    parts.push_back(path.substr(start, slash - start));
+    start = slash + 1;
+  }
+  return parts;
+}
+
+std::string joined(const std::vector<std::string>& parts, std::size_t from) {
+  std::string path;
+  for (std::size_t i = from; i < parts.size(); ++i) path += (i > from ? "/" : "") + parts[i];
+  return path;
+}
+
+using Parameters = std::map<std::string, std::string>;
+
+std::optional<Parameters> match(const std::vector<std::string>& pattern,
+                                const std::vector<std::string>& path) {
+  Parameters parameters;
+  for (std::size_t i = 0; i < pattern.size(); ++i) {
+    const std::string& part = pattern[i];
+    if (part.ends_with("...}")) {
+      if (i >= path.size()) return std::nullopt;
+      parameters[part.substr(1, part.size() - 5)] = joined(path, i);
+      return parameters;
+    }
+    if (i >= path.size()) return std::nullopt;
+    if (part.starts_with('{')) {
+      if (path[i].empty()) return std::nullopt;
+      parameters[part.substr(1, part.size() - 2)] = path[i];
+    } else if (part != path[i]) {
+      return std::nullopt;
+    }
+  }
+  if (path.size() != pattern.size()) return std::nullopt;
+  return parameters;
+}
+
+}  // namespace
+
+void Router::add(const std::string& method, const std::string& pattern, RouteHandler handler) {
+  routes_.push_back({method, split(pattern), std::move(handler)});
+}
+
+HttpResponse Router::handle(HttpRequest request) const {
+  try {
+    return dispatch(request);
+  } catch (const Problem& problem) {
+    return to_response(problem);
+  } catch (const CommandError& error) {
+    return to_response(to_problem(error));
+  } catch (const std::exception& error) {
+    spdlog::error("{} {}: {}", request.method, request.path, error.what());
+    return to_response(Problem(500, error.what()));
+  }
+}
+
+HttpResponse Router::dispatch(HttpRequest& request) const {
+  const std::string method = request.method == "HEAD" ? "GET" : request.method;
+  const std::vector<std::string> path = split(request.path);
+  std::set<std::string> allowed;
+  for (const Route& route : routes_) {
+    auto parameters = match(route.parts, path);
+    if (!parameters) continue;
+    if (route.method != method) {
+      allowed.insert(route.method);
+      continue;
+    }
+    request.parameters = std::move(*parameters);
+    return route.handler(request);
+  }
+  if (allowed.empty() && !request.path.starts_with("/api/")) {
+    if (method == "GET" && fallback_) return fallback_(request);
+    allowed.insert("GET");
+  }
+  if (allowed.empty()) throw Problem(404, "there is nothing at " + request.path);
+  std::string list;
+  for (const std::string& name : allowed) {
+    list += (list.empty() ? "" : ", ") + name;
+    if (name == "GET") list += ", HEAD";
+  }
+  Problem problem(405, request.method + " is not possible at " + request.path + "; allowed: " + list);
+  problem.headers.emplace_back("Allow", list);
+  throw problem;
+}
+
+}  // namespace stagger::server

@@ -1,0 +1,88 @@
+#include "server/http/problem.h"
+#include "server/http/routes/body.h"
+#include "server/http/routes/routes.h"
+#include "server/json/gait_json.h"
+#include "sim/state_hash.h"
+
+namespace stagger::server {
+namespace {
+
+Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
+Json state_json(const SessionState& state, const StreamCounters& stream) {
+  return {{"session_id", state.session_id},
+          {"robot", state.robot},
+          {"plant", name_of(state.plant)},
+          {"seed", state.seed},
+          {"tick", state.tick},
+          {"time_s", state.time_s},
+          {"running", state.running},
+          {"walking_state", name_of(state.walking_state)},
+          {"walking", state.walking_state != sim::WalkingState::idle && !state.fallen},
+          {"walk", walk_json(state.walk)},
+          {"fallen", state.fallen},
+          {"fall_reason", text_or_null(state.fall_reason)},
+          {"strategies", strategies_json(state.strategies)},
+          {"step_count", state.step_count},
+          {"worst_dcm_error_m", state.worst_dcm_error_m},
+          {"real_time_factor", state.real_time_factor},
+          {"late_ticks", state.late_ticks},
+          {"worst_lateness_ms", state.worst_lateness_ms},
+          {"stream",
+           {{"clients", stream.clients},
+            {"dropped_clients", stream.dropped_clients},
+            {"dropped_messages", stream.dropped_messages}}},
+          {"state_hash", sim::to_hex(state.state_hash)},
+          {"error", text_or_null(state.error)},
+          {"version", STAGGER_VERSION}};
+}
+
+HttpResponse reset(const HttpRequest& request, Services& services) {
+  const SessionState present = services.session.state();
+  std::string robot = present.robot;
+  sim::SimulationConfig config;
+  config.strategies = present.strategies;
+  read_body(request, true, [&](sim::JsonReader& reader) {
+    robot = reader.string_or("robot", present.robot);
+    config.plant = read_plant(reader).value_or(present.plant);
+    config.seed = read_seed(reader).value_or(present.seed);
+  });
+  config.robot = services.robots.find(robot);
+  if (config.robot == nullptr) {
+    sim::JsonErrors errors;
+    errors.add("/robot", services.robots.unknown(robot));
+    throw Problem(errors);
+  }
+  Json answer = effect_json(services.session.reset(config, source_of(request)));
+  answer["session_id"] = services.session.state().session_id;
+  return json_response(answer);
+}
+
+}  // namespace
+
+void add_simulation_routes(Router& router, Services& services) {
+  const std::string base = "/api/v1/simulation";
+  router.add("GET", base, [&](const HttpRequest&) {
+    return json_response(state_json(services.session.state(), services.hub.counters()));
+  });
+  router.add("POST", base + "/pause", [&](const HttpRequest& request) {
+    expect_no_fields(request);
+    return json_response(effect_json(services.session.pause(source_of(request))));
+  });
+  router.add("POST", base + "/resume", [&](const HttpRequest& request) {
+    expect_no_fields(request);
+    return json_response(effect_json(services.session.resume(source_of(request))));
+  });
+  router.add("POST", base + "/step", [&](const HttpRequest& request) {
+    std::int64_t ticks = 1;
+    read_body(request, true, [&ticks](sim::JsonReader& reader) {
+      ticks = reader.integer_or("ticks", 1, sim::Range::between(1, LiveSession::max_step_ticks));
+    });
+    return json_response(effect_json(
+        services.session.step(static_cast<std::uint64_t>(ticks), source_of(request))));
+  });
+  router.add("POST", base + "/reset",
+             [&](const HttpRequest& request) { return reset(request, services); });
+}
+
+}  // namespace stagger::server

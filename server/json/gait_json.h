@@ -1,0 +1,44 @@
+// Walk commands, strategies and plants: the words that requests, trials and answers share.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "engine/parameters.h"
+#include "server/json/json.h"
+#include "sim/frame.h"
+#include "sim/plant/plant.h"
+#include "sim/strict_json.h"
+
+namespace stagger::server {
+
+/// {"vx","vy","wz"}; what is left out is 0. Limits: |vx| 0.5 m/s, |vy| 0.3 m/s, |wz| 0.5 rad/s.
+engine::WalkCommand read_walk(sim::JsonReader& reader);
+Json walk_json(const engine::WalkCommand& walk);
+
+/// Which strategies are to be changed; the others stay as they are.
+struct StrategyPatch {
+  std::optional<bool> ankle;
+  std::optional<bool> step;
+  engine::Strategies applied_to(engine::Strategies present) const;
+};
+
+/// {"ankle":true,"step":false}, each of them optional.
+StrategyPatch read_strategies(sim::JsonReader& reader);
+Json strategies_json(const engine::Strategies& strategies);
+
+/// The field `name`, ["ankle","step"]: those that may act. Nothing when the field is left out.
+std::optional<engine::Strategies> read_strategy_names(sim::JsonReader& reader,
+                                                      std::string_view name);
+Json strategy_names_json(const engine::Strategies& strategies);
+
+std::string_view name_of(sim::PlantKind plant);
+std::string_view name_of(sim::WalkingState state);
+/// The plant of that name, for the command line.
+std::optional<sim::PlantKind> plant_of(std::string_view name);
+/// The field "plant", or nothing when it is left out.
+std::optional<sim::PlantKind> read_plant(sim::JsonReader& reader);
+/// The field "seed", 0 to 2^53 (what JSON's numbers hold exactly), or nothing when it is left out.
+std::optional<std::uint64_t> read_seed(sim::JsonReader& reader);
+
+}  // namespace stagger::server

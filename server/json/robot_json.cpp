@@ -1,0 +1,22 @@
+#include "server/json/robot_json.h"
+
+namespace stagger::server {
+
+Json robot_json(const sim::Robot& robot) {
+  Json links = Json::array();
+  for (const auto& [name, place] : robot.model.links) links.push_back(name);
+  return {{"name", robot.name},
+          {"mass_kg", robot.model.mass()},
+          {"com_height_m", robot.description.walk.com_height_m},
+          {"links", std::move(links)},
+          {"joints", robot.model.joint_names()}};
+}
+
+std::optional<std::string> check_link(const std::string& link, const sim::Robot& robot) {
+  if (robot.model.links.contains(link)) return std::nullopt;
+  std::string text = "is \"" + link + "\"; links of " + robot.name + ":";
+  for (const auto& [name, place] : robot.model.links) text += " " + name;
+  return text;
+}
+
+}  // namespace stagger::server

@@ -1,0 +1,18 @@
+// Robots as JSON, and the question whether a robot has a link.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "server/json/json.h"
+#include "sim/robot/robot.h"
+
+namespace stagger::server {
+
+/// {"name","mass_kg","com_height_m","links":[...],"joints":[...]}
+Json robot_json(const sim::Robot& robot);
+
+/// Nothing when the robot has that link; else what to tell whoever asked for it.
+std::optional<std::string> check_link(const std::string& link, const sim::Robot& robot);
+
+}  // namespace stagger::server

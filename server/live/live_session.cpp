@@ -1,0 +1,425 @@
+#include "server/live/live_session.h"
+
+#include <spdlog/spdlog.h>
+#include <time.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <random>
+
+namespace stagger::server {
+namespace {
+
+using namespace std::chrono_literals;
+
+// How long an HTTP thread waits for an answer before it gives up.
+constexpr auto command_patience = 5s;
+constexpr auto step_patience = 300s;
+// Between two slices of a long step the other commands get their turn.
+constexpr auto step_slice = 5ms;
+constexpr std::size_t max_step_jobs = 16;
+
+std::string random_id() {
+  std::random_device device;
+  const std::uint64_t high = device();
+  return sim::to_hex((high << 32) ^ device());
+}
+
+// An absolute time, so that the time which a tick takes does not add up.
+void sleep_until(std::chrono::steady_clock::time_point when) {
+  const auto since = when.time_since_epoch();
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(since);
+  timespec due{};
+  due.tv_sec = seconds.count();
+  due.tv_nsec = std::chrono::duration_cast<std::chrono::nanoseconds>(since - seconds).count();
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr) == EINTR) {
+  }
+}
+
+std::string_view name_of(sim::EventKind kind) {
+  switch (kind) {
+    case sim::EventKind::step: return "step";
+    case sim::EventKind::push_started: return "push_started";
+    case sim::EventKind::push_done: return "push_done";
+    case sim::EventKind::push_cancelled: return "push_cancelled";
+    case sim::EventKind::fall: return "fall";
+  }
+  return "step";
+}
+
+}  // namespace
+
+LiveSession::LiveSession(const sim::SimulationConfig& config, FrameHub& hub, bool walk_at_start)
+    : hub_(hub),
+      world_(std::make_unique<sim::Simulation>(config)),
+      pacer_(std::chrono::duration_cast<Clock::duration>(
+          std::chrono::duration<double>(sim::Simulation::tick_s))) {
+  start_session();
+  if (walk_at_start) world_->walk(walk_);
+  show_state();
+  thread_ = std::thread([this] { run(); });
+}
+
+LiveSession::~LiveSession() { stop(); }
+
+void LiveSession::stop() {
+  queue_.close();
+  if (thread_.joinable()) thread_.join();
+}
+
+SessionState LiveSession::state() const {
+  const std::lock_guard lock(state_mutex_);
+  return state_;
+}
+
+// --- commands: from any thread ---------------------------------------------------------------
+
+void LiveSession::enqueue(Command command) {
+  using Push = CommandQueue<Command>::Push;
+  switch (queue_.push(std::move(command))) {
+    case Push::taken: return;
+    case Push::full:
+      throw CommandError(CommandError::Kind::busy, "too many commands wait for the simulation");
+    case Push::closed: throw CommandError(CommandError::Kind::stopping, "the server is stopping");
+  }
+}
+
+template <typename T>
+T LiveSession::call(std::function<T()> action) {
+  auto ticket = std::make_shared<Ticket<T>>();
+  enqueue({[this, ticket, action = std::move(action)] {
+             if (!ticket->claim()) return;
+             try {
+               T value = action();
+               show_state();
+               ticket->answer(std::move(value));
+             } catch (const CommandError& error) {
+               ticket->fail(CommandError(error.kind(), error.what()));
+             } catch (const std::exception& error) {
+               break_down(error.what());
+               ticket->fail(CommandError(CommandError::Kind::failed, error.what()));
+             }
+           },
+           [ticket](const CommandError& error) { ticket->fail(error); }});
+  return ticket->wait(command_patience);
+}
+
+Effect LiveSession::pause(const std::string& source) {
+  return call<Effect>([this, source] {
+    if (running_) {
+      running_ = false;
+      hub_.set_running(false);
+      announce(now(), "pause", source);
+      repeat_frame();
+    }
+    return now();
+  });
+}
+
+Effect LiveSession::resume(const std::string& source) {
+  return call<Effect>([this, source] {
+    require_intact();
+    if (!running_) {
+      end_steps({CommandError::Kind::conflict, "the simulation was resumed before the step's end"});
+      running_ = true;
+      hub_.set_running(true);
+      pacer_.restart(Clock::now());
+      announce(now(), "resume", source);
+    }
+    return now();
+  });
+}
+
+Effect LiveSession::step(std::uint64_t ticks, const std::string& source) {
+  auto ticket = std::make_shared<Ticket<Effect>>();
+  enqueue({[this, ticket, ticks, source] {
+             if (!ticket->claim()) return;
+             try {
+               require_intact();
+               if (running_) {
+                 throw CommandError(CommandError::Kind::conflict,
+                                    "the simulation is running; pause it first");
+               }
+               if (steps_.size() >= max_step_jobs) {
+                 throw CommandError(CommandError::Kind::busy, "too many steps wait");
+               }
+               announce(now(), "step " + std::to_string(ticks), source,
+                        {{"ticks", static_cast<double>(ticks)}});
+               steps_.push_back({ticks, ticket});
+             } catch (const CommandError& error) {
+               ticket->fail(CommandError(error.kind(), error.what()));
+             }
+           },
+           [ticket](const CommandError& error) { ticket->fail(error); }});
+  return ticket->wait(step_patience);
+}
+
+Effect LiveSession::reset(const sim::SimulationConfig& config, const std::string& source) {
+  // Shared with the action, so that the old world is taken down by the caller too.
+  auto world = std::make_shared<std::unique_ptr<sim::Simulation>>(
+      std::make_unique<sim::Simulation>(config));
+  return call<Effect>([this, world, source] {
+    end_steps({CommandError::Kind::conflict, "the simulation was reset before the step's end"});
+    world_.swap(*world);
+    walk_ = {};
+    error_.clear();
+    start_session();
+    announce(now(), "reset", source);
+    return now();
+  });
+}
+
+Effect LiveSession::walk(const engine::WalkCommand& command, const std::string& source) {
+  return call<Effect>([this, command, source] {
+    require_intact();
+    world_->walk(command);
+    walk_ = command;
+    announce(now(), "walk", source, {{"vx", command.vx}, {"vy", command.vy}, {"wz", command.wz}});
+    return now();
+  });
+}
+
+Effect LiveSession::stop_walking(const std::string& source) {
+  return call<Effect>([this, source] {
+    require_intact();
+    world_->stop_walking();
+    walk_ = {};
+    announce(now(), "stop", source);
+    return now();
+  });
+}
+
+StrategyEffect LiveSession::change_strategies(const StrategyChange& change,
+                                              const std::string& source) {
+  return call<StrategyEffect>([this, change, source] {
+    require_intact();
+    strategies_ = change(strategies_);
+    world_->set_strategies(strategies_);
+    announce(now(), "strategies", source,
+             {{"ankle", strategies_.ankle ? 1.0 : 0.0}, {"step", strategies_.step ? 1.0 : 0.0}});
+    return StrategyEffect{now(), strategies_};
+  });
+}
+
+sim::PushRecord LiveSession::push(const sim::PushSpec& spec, const std::string& source) {
+  return call<sim::PushRecord>([this, spec, source] {
+    require_intact();
+    std::uint64_t id = 0;
+    try {
+      id = world_->push(spec);
+    } catch (const std::invalid_argument& error) {
+      throw CommandError(CommandError::Kind::invalid, error.what());
+    }
+    announce(now(), "push " + std::to_string(id), source,
+             {{"id", static_cast<double>(id)}, {"impulse_ns", spec.impulse_ns}});
+    return world_->pushes().back();
+  });
+}
+
+namespace {
+
+const sim::PushRecord& look_up(const std::vector<sim::PushRecord>& records, std::uint64_t id) {
+  for (const sim::PushRecord& record : records) {
+    if (record.id == id) return record;
+  }
+  throw CommandError(CommandError::Kind::not_found,
+                     "there is no push " + std::to_string(id) + " in this session");
+}
+
+}  // namespace
+
+sim::PushRecord LiveSession::cancel_push(std::uint64_t id, const std::string& source) {
+  return call<sim::PushRecord>([this, id, source] {
+    const sim::PushRecord& record = look_up(world_->pushes(), id);
+    if (record.state == sim::PushState::done) {
+      throw CommandError(CommandError::Kind::conflict,
+                         "push " + std::to_string(id) + " is done already");
+    }
+    if (record.state != sim::PushState::cancelled && world_->cancel_push(id)) {
+      announce(now(), "cancel push " + std::to_string(id), source,
+               {{"id", static_cast<double>(id)}});
+    }
+    return look_up(world_->pushes(), id);
+  });
+}
+
+sim::PushRecord LiveSession::find_push(std::uint64_t id) {
+  return call<sim::PushRecord>([this, id] { return look_up(world_->pushes(), id); });
+}
+
+std::vector<sim::PushRecord> LiveSession::pushes(std::uint64_t before, std::size_t limit) {
+  return call<std::vector<sim::PushRecord>>([this, before, limit] {
+    const auto& all = world_->pushes();
+    std::vector<sim::PushRecord> page;
+    for (auto record = all.rbegin(); record != all.rend() && page.size() < limit; ++record) {
+      if (record->id < before) page.push_back(*record);
+    }
+    return page;
+  });
+}
+
+// --- the simulation thread -------------------------------------------------------------------
+
+void LiveSession::run() {
+  pacer_.restart(Clock::now());
+  while (!queue_.closed()) {
+    if (running_) {
+      sleep_until(pacer_.due());
+    } else if (steps_.empty()) {
+      queue_.wait(100ms);
+    }
+    // Whatever goes wrong in a world must not take the server down with it.
+    try {
+      for (const Command& command : queue_.take()) command.run();
+      if (running_) {
+        run_tick();
+      } else if (!steps_.empty()) {
+        run_steps();
+      }
+    } catch (const std::exception& error) {
+      break_down(error.what());
+    } catch (...) {
+      break_down("an unknown error");
+    }
+  }
+  const CommandError stopping(CommandError::Kind::stopping, "the server is stopping");
+  end_steps(stopping);
+  for (const Command& command : queue_.take()) command.refuse(stopping);
+}
+
+void LiveSession::run_tick() {
+  pacer_.tick(Clock::now());
+  advance();
+  publish_frame(false);
+  try_show_state();
+}
+
+void LiveSession::run_steps() {
+  const auto end = Clock::now() + step_slice;
+  StepJob& job = steps_.front();
+  do {
+    advance();
+    --job.ticks_left;
+    publish_frame(job.ticks_left == 0);
+  } while (job.ticks_left > 0 && Clock::now() < end);
+  show_state();
+  if (job.ticks_left > 0) return;
+  job.ticket->answer(now());
+  steps_.pop_front();
+}
+
+void LiveSession::advance() {
+  world_->step();
+  for (sim::Event& event : world_->take_events()) {
+    auto message = std::make_shared<EventMessage>();
+    message->tick = event.tick;
+    message->time = event.time;
+    message->kind = name_of(event.kind);
+    message->text = std::move(event.text);
+    message->values = std::move(event.values);
+    hub_.publish(EventPtr(std::move(message)));
+  }
+}
+
+void LiveSession::publish_frame(bool always) {
+  auto message = std::make_shared<FrameMessage>();
+  message->session = session_;
+  message->frame = world_->frame();
+  frame_ = std::move(message);
+  hub_.publish(frame_, always);
+}
+
+void LiveSession::repeat_frame() { hub_.publish(frame_, true); }
+
+void LiveSession::start_session() {
+  const sim::SimulationConfig& config = world_->config();
+  auto session = std::make_shared<SessionInfo>();
+  session->id = random_id();
+  session->robot = config.robot->name;
+  session->plant = config.plant;
+  session->seed = config.seed;
+  session->channels = world_->channels();
+  session_ = std::move(session);
+  strategies_ = config.strategies;
+  hub_.start_session(session_);
+  publish_frame(true);
+}
+
+void LiveSession::break_down(const std::string& why) {
+  spdlog::error("the simulation broke down at tick {}: {}", world_->next_tick(), why);
+  running_ = false;
+  error_ = why;
+  hub_.set_running(false);
+  end_steps({CommandError::Kind::conflict, "the simulation broke down: " + why});
+  announce(now(), "breakdown: " + why, "server");
+  repeat_frame();
+  show_state();
+}
+
+void LiveSession::end_steps(const CommandError& why) {
+  for (const StepJob& job : steps_) job.ticket->fail(why);
+  steps_.clear();
+}
+
+void LiveSession::require_intact() const {
+  if (!error_.empty()) {
+    throw CommandError(CommandError::Kind::conflict,
+                       "the simulation broke down and takes a reset: " + error_);
+  }
+}
+
+Effect LiveSession::now() const {
+  const std::uint64_t tick = world_->next_tick();
+  return {tick, static_cast<double>(tick) * sim::Simulation::tick_s};
+}
+
+void LiveSession::announce(const Effect& effect, std::string text, const std::string& source,
+                           std::vector<std::pair<std::string, double>> values) {
+  spdlog::debug("{} at tick {} ({})", text, effect.tick, source);
+  auto message = std::make_shared<EventMessage>();
+  message->tick = effect.tick;
+  message->time = effect.time_s;
+  message->kind = "command";
+  message->text = std::move(text);
+  message->values = std::move(values);
+  message->source = source;
+  hub_.publish(EventPtr(std::move(message)));
+}
+
+SessionState LiveSession::describe() const {
+  const sim::Frame& frame = world_->frame();
+  SessionState state;
+  state.session_id = session_->id;
+  state.robot = session_->robot;
+  state.plant = session_->plant;
+  state.seed = session_->seed;
+  state.tick = now().tick;
+  state.time_s = now().time_s;
+  state.running = running_;
+  state.walking_state = frame.state;
+  state.fallen = frame.fallen;
+  state.fall_reason = world_->fall_reason();
+  state.strategies = strategies_;
+  state.walk = walk_;
+  state.step_count = frame.step_count;
+  state.worst_dcm_error_m = world_->worst_dcm_error();
+  state.real_time_factor = running_ ? pacer_.real_time_factor() : 0.0;
+  state.late_ticks = pacer_.late_ticks();
+  state.worst_lateness_ms = pacer_.worst_lateness_ms();
+  state.state_hash = world_->state_hash();
+  state.error = error_;
+  return state;
+}
+
+void LiveSession::show_state() {
+  SessionState state = describe();
+  const std::lock_guard lock(state_mutex_);
+  state_ = std::move(state);
+}
+
+void LiveSession::try_show_state() {
+  const std::unique_lock lock(state_mutex_, std::try_to_lock);
+  if (lock.owns_lock()) state_ = describe();
+}
+
+}  // namespace stagger::server

@@ -1,0 +1,144 @@
+// The world that people watch: one thread owns the simulation and keeps it at the wall clock's pace.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "server/live/command_queue.h"
+#include "server/live/frame_hub.h"
+#include "server/live/pacer.h"
+#include "server/live/ticket.h"
+#include "sim/simulation.h"
+
+namespace stagger::server {
+
+/// When a command took effect: the first tick that it acts on. That is the tick that runs next.
+struct Effect {
+  std::uint64_t tick = 0;
+  double time_s = 0.0;
+};
+
+struct StrategyEffect {
+  Effect effect;
+  engine::Strategies strategies;  ///< all of them, as they are now
+};
+
+/// What GET /api/v1/simulation tells, but for the stream's own counters.
+struct SessionState {
+  std::string session_id;
+  std::string robot;
+  sim::PlantKind plant = sim::PlantKind::bullet;
+  std::uint64_t seed = 0;
+  std::uint64_t tick = 0;  ///< that runs next; the last frame is of the tick before
+  double time_s = 0.0;
+  bool running = false;
+  sim::WalkingState walking_state = sim::WalkingState::idle;
+  bool fallen = false;
+  std::string fall_reason;
+  engine::Strategies strategies;
+  engine::WalkCommand walk;
+  std::uint64_t step_count = 0;
+  double worst_dcm_error_m = 0.0;
+  double real_time_factor = 0.0;
+  std::uint64_t late_ticks = 0;
+  double worst_lateness_ms = 0.0;
+  std::uint64_t state_hash = 0;
+  std::string error;  ///< why the simulation broke down; it takes a reset to go on
+};
+
+/// Commands may come from any thread. Each waits until the simulation thread has carried it out and
+/// throws CommandError when it could not. `source` says who sent it, for everyone who listens.
+class LiveSession {
+ public:
+  static constexpr std::size_t queue_capacity = 256;
+  static constexpr std::uint64_t max_step_ticks = 10000;
+
+  /// Builds the world and starts the thread. Throws what the simulation's constructor throws.
+  LiveSession(const sim::SimulationConfig& config, FrameHub& hub, bool walk_at_start);
+  ~LiveSession();
+  LiveSession(const LiveSession&) = delete;
+  LiveSession& operator=(const LiveSession&) = delete;
+
+  /// Ends the thread; commands that wait fail. May be called again.
+  void stop();
+
+  /// Never waits for the simulation thread.
+  SessionState state() const;
+
+  Effect pause(const std::string& source);
+  Effect resume(const std::string& source);
+  /// Only while paused; returns when the ticks have been done.
+  Effect step(std::uint64_t ticks, const std::string& source);
+  /// Replaces the world; it runs or stays paused as before. The new one is built in the calling
+  /// thread, so that nobody waits for it but the caller.
+  Effect reset(const sim::SimulationConfig& config, const std::string& source);
+  Effect walk(const engine::WalkCommand& command, const std::string& source);
+  Effect stop_walking(const std::string& source);
+  using StrategyChange = std::function<engine::Strategies(engine::Strategies)>;
+  StrategyEffect change_strategies(const StrategyChange& change, const std::string& source);
+  sim::PushRecord push(const sim::PushSpec& spec, const std::string& source);
+  sim::PushRecord cancel_push(std::uint64_t id, const std::string& source);
+  sim::PushRecord find_push(std::uint64_t id);
+  /// Newest first, those with an id below `before`.
+  std::vector<sim::PushRecord> pushes(std::uint64_t before, std::size_t limit);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  struct Command {
+    std::function<void()> run;
+    std::function<void(const CommandError&)> refuse;
+  };
+  struct StepJob {
+    std::uint64_t ticks_left = 0;
+    std::shared_ptr<Ticket<Effect>> ticket;
+  };
+
+  /// Runs `action` in the simulation thread and returns what it returns.
+  template <typename T>
+  T call(std::function<T()> action);
+  void enqueue(Command command);
+
+  // All below: the simulation thread only.
+  void run();
+  void run_tick();
+  void run_steps();
+  void advance();
+  void publish_frame(bool always);
+  void repeat_frame();
+  void start_session();
+  void break_down(const std::string& why);
+  void end_steps(const CommandError& why);
+  void require_intact() const;
+  Effect now() const;
+  void announce(const Effect& effect, std::string text, const std::string& source,
+                std::vector<std::pair<std::string, double>> values = {});
+  SessionState describe() const;
+  void show_state();      ///< waits for readers, so that an answered command shows
+  void try_show_state();  ///< a tick never waits for a reader
+
+  FrameHub& hub_;
+  CommandQueue<Command> queue_{queue_capacity};
+  std::unique_ptr<sim::Simulation> world_;
+  SessionPtr session_;
+  FramePtr frame_;
+  engine::Strategies strategies_;
+  engine::WalkCommand walk_;
+  Pacer pacer_;
+  bool running_ = true;
+  std::string error_;
+  std::deque<StepJob> steps_;
+
+  mutable std::mutex state_mutex_;
+  SessionState state_;
+  std::thread thread_;
+};
+
+}  // namespace stagger::server

@@ -1,0 +1,62 @@
+// Dense, strictly convex quadratic programs of the size that a whole-body controller has.
+#pragma once
+
+#include <Eigen/Dense>
+#include <cstdint>
+#include <vector>
+
+namespace stagger::sim {
+
+/// minimise 1/2 x' H x + g' x  subject to  E x = e  and  A x >= a.
+/// Rows of E and A are constraints. H is symmetric and positive definite.
+struct QpProblem {
+  Eigen::MatrixXd h;
+  Eigen::VectorXd g;
+  Eigen::MatrixXd equality;
+  Eigen::VectorXd equality_value;
+  Eigen::MatrixXd inequality;
+  Eigen::VectorXd inequality_bound;
+};
+
+enum class QpStatus : std::uint8_t {
+  solved,
+  infeasible,    ///< the constraints contradict each other
+  not_convex,    ///< H is not positive definite
+  out_of_steps   ///< degenerate beyond patience
+};
+
+/// Dual active-set method of Goldfarb and Idnani (Mathematical Programming 27, 1983): starts from
+/// the unconstrained optimum and takes in the most violated constraint until none is left.
+/// Memory is kept between calls: none is taken once a size has been seen.
+class QpSolver {
+ public:
+  QpStatus solve(const QpProblem& problem);
+
+  const Eigen::VectorXd& solution() const { return x_; }
+  /// Multipliers of the inequalities (>= 0), in their order.
+  Eigen::VectorXd inequality_multipliers() const;
+  int iterations() const { return iterations_; }
+
+ private:
+  bool add(const Eigen::VectorXd& d);
+  void drop(Eigen::Index position);
+  void directions(const Eigen::Ref<const Eigen::VectorXd>& normal);
+
+  Eigen::Index n_ = 0;
+  Eigen::Index active_count_ = 0;
+  Eigen::LLT<Eigen::MatrixXd> llt_;
+  Eigen::MatrixXd j_;  ///< L^-T Q: its first active_count_ columns span the active normals
+  Eigen::MatrixXd r_;  ///< upper triangular factor of the active normals in that basis
+  Eigen::VectorXd x_;
+  Eigen::VectorXd d_;       ///< J' n
+  Eigen::VectorXd primal_;  ///< step of x
+  Eigen::VectorXd dual_;    ///< step of the active multipliers
+  Eigen::VectorXd u_;       ///< multipliers of the active constraints
+  Eigen::VectorXd slack_;
+  std::vector<Eigen::Index> active_;  ///< -1 - i for equality i, else the inequality's index
+  std::vector<char> is_active_;
+  Eigen::Index inequalities_ = 0;
+  int iterations_ = 0;
+};
+
+}  // namespace stagger::sim

@@ -1,0 +1,195 @@
+#include "sim/control/whole_body_controller.h"
+
+#include <algorithm>
+
+#include "sim/plant/motor_limits.h"
+
+namespace stagger::sim {
+namespace {
+
+/// Rotation vector that takes `from` to `to`, world axes [rad].
+Vec3 rotation_error(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
+  const Eigen::AngleAxisd turn(to * from.transpose());
+  return turn.angle() * turn.axis();
+}
+
+Eigen::Matrix3d yaw_rotation(double yaw) {
+  return Eigen::AngleAxisd(yaw, Vec3::UnitZ()).toRotationMatrix();
+}
+
+/// Joint torque = -damping * velocity when a solve has failed [N m s].
+constexpr double fallback_damping = 5.0;
+
+}  // namespace
+
+WholeBodyController::WholeBodyController(const Robot& robot, const WholeBodyGains& gains)
+    : gains_(gains),
+      joints_(robot.model.bodies.begin() + 1, robot.model.bodies.end()),
+      nv_(6 + static_cast<Eigen::Index>(robot.model.joint_count())) {
+  for (const engine::Side side : {engine::Side::left, engine::Side::right}) {
+    Foot& foot = feet_[engine::index(side)];
+    foot.body = robot.foot_body(side);
+    foot.sole = robot.sole_in_body(side);
+    const SoleDescription& sole = robot.description.feet[engine::index(side)].sole;
+    const double x = 0.5 * sole.length - gains.sole_margin;
+    const double y = 0.5 * sole.width - gains.sole_margin;
+    foot.corners = {foot.sole * Vec3(x, y, 0.0), foot.sole * Vec3(x, -y, 0.0),
+                    foot.sole * Vec3(-x, y, 0.0), foot.sole * Vec3(-x, -y, 0.0)};
+  }
+  const LinkPlace& torso = robot.model.links.at(robot.description.torso);
+  torso_body_ = torso.body;
+  torso_in_body_ = torso.pose.linear();
+  jacobian_.resize(6, nv_);
+  torque_ = Eigen::VectorXd::Zero(nv_ - 6);
+}
+
+void WholeBodyController::add_task(double weight, const Rows& jacobian,
+                                   const Eigen::Ref<const Eigen::VectorXd>& value) {
+  problem_.h.topLeftCorner(nv_, nv_).noalias() += weight * jacobian.transpose() * jacobian;
+  problem_.g.head(nv_).noalias() -= weight * jacobian.transpose() * value;
+}
+
+void WholeBodyController::add_com_task(const RigidBody& body,
+                                       const engine::WalkingTargets& targets) {
+  const double omega_squared = gravity_ / targets.com_height;
+  const Vec3 com = body.com();
+  const double ground = targets.feet[engine::index(targets.support_side)].position.z();
+  // Eq. (2): the ZMP that the engine wants is an acceleration of the CoM.
+  Vec3 wanted;
+  wanted.head<2>() = omega_squared * (com.head<2>() - targets.zmp_command);
+  wanted.z() = gains_.height_stiffness * (ground + targets.com_height - com.z()) -
+               gains_.height_damping * body.com_velocity().z();
+  wanted -= body.com_bias_acceleration();
+  add_task(gains_.com_weight, body.com_jacobian().topRows(2), wanted.head<2>());
+  add_task(gains_.height_weight, body.com_jacobian().bottomRows(1), wanted.tail<1>());
+}
+
+void WholeBodyController::add_torso_task(const RigidBody& body,
+                                         const engine::WalkingTargets& targets) {
+  const Vec3 point = body.position(torso_body_);
+  const Eigen::Matrix3d rotation = body.rotation(torso_body_) * torso_in_body_;
+  const Vec3 omega = body.velocity(torso_body_, point).tail<3>();
+  const Vec3 wanted_omega(0.0, 0.0, targets.heading_velocity);
+  body.jacobian(torso_body_, point, jacobian_);
+  const Vec3 wanted =
+      gains_.torso_stiffness * rotation_error(rotation, yaw_rotation(targets.heading)) +
+      gains_.torso_damping * (wanted_omega - omega) -
+      body.bias_acceleration(torso_body_, point).tail<3>();
+  add_task(gains_.torso_weight, jacobian_.bottomRows(3), wanted);
+}
+
+void WholeBodyController::add_foot_task(const RigidBody& body, const Foot& foot,
+                                        const engine::FootTarget& target) {
+  const Vec3 point = body.pose(foot.body) * foot.sole.translation();
+  const Vec6 velocity = body.velocity(foot.body, point);
+  body.jacobian(foot.body, point, jacobian_);
+  Vec6 wanted;
+  double weight = 0.0;
+  if (target.in_contact) {
+    // A standing foot is held by its contact: all that is asked of it is not to move.
+    wanted = -gains_.stance_damping * velocity;
+    weight = gains_.stance_weight;
+  } else {
+    const Eigen::Matrix3d rotation = body.rotation(foot.body) * foot.sole.linear();
+    wanted.head<3>() = target.acceleration +
+                       gains_.swing_stiffness * (target.position - point) +
+                       gains_.swing_damping * (target.velocity - velocity.head<3>());
+    const double size = wanted.head<3>().norm();
+    if (size > gains_.swing_acceleration_limit) {
+      wanted.head<3>() *= gains_.swing_acceleration_limit / size;
+    }
+    wanted.tail<3>() =
+        Vec3(0.0, 0.0, target.yaw_acceleration) +
+        gains_.swing_stiffness * rotation_error(rotation, yaw_rotation(target.yaw)) +
+        gains_.swing_damping * (Vec3(0.0, 0.0, target.yaw_velocity) - velocity.tail<3>());
+    weight = gains_.swing_weight;
+  }
+  wanted -= body.bias_acceleration(foot.body, point);
+  add_task(weight, jacobian_, wanted);
+}
+
+void WholeBodyController::find_contacts(const RigidBody& body,
+                                        const engine::WalkingTargets& targets) {
+  contacts_.clear();
+  for (std::size_t i = 0; i < feet_.size(); ++i) {
+    if (!targets.feet[i].in_contact) continue;
+    const Eigen::Isometry3d pose = body.pose(feet_[i].body);
+    for (const Vec3& corner : feet_[i].corners) contacts_.push_back({feet_[i].body, pose * corner});
+  }
+  contact_jacobian_.resize(3 * static_cast<Eigen::Index>(contacts_.size()), nv_);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    body.jacobian(contacts_[i].body, contacts_[i].point, jacobian_);
+    contact_jacobian_.middleRows<3>(3 * static_cast<Eigen::Index>(i)) = jacobian_.topRows(3);
+  }
+}
+
+void WholeBodyController::add_dynamics(const RigidBody& body) {
+  // The base has no motor: M_b nudot + h_b = J_b' f.
+  problem_.equality.leftCols(nv_) = body.mass_matrix().topRows(6);
+  problem_.equality.rightCols(contact_jacobian_.rows()) =
+      -contact_jacobian_.leftCols(6).transpose();
+  problem_.equality_value = -body.bias().head(6);
+}
+
+void WholeBodyController::add_limits(const RigidBody& body, const RobotState& state) {
+  Eigen::Index row = 0;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const Eigen::Index x = nv_ + 3 * static_cast<Eigen::Index>(i);
+    for (const Eigen::Index tangent : {x, x + 1}) {
+      for (const double sign : {1.0, -1.0}) {
+        problem_.inequality(row, x + 2) = gains_.friction;
+        problem_.inequality(row, tangent) = sign;
+        problem_.inequality_bound[row++] = 0.0;
+      }
+    }
+    problem_.inequality(row, x + 2) = 1.0;
+    problem_.inequality_bound[row++] = gains_.least_normal_force;
+  }
+  // tau = M_j nudot + h_j - J_j' f within what the motors give at their speed.
+  const Eigen::Index joints = nv_ - 6;
+  for (Eigen::Index j = 0; j < joints; ++j) {
+    const TorqueRange range = available_torque(joints_[static_cast<std::size_t>(j)], state.qd[j]);
+    const double bias = body.bias()[6 + j];
+    auto upper = problem_.inequality.row(row);
+    upper.head(nv_) = -body.mass_matrix().row(6 + j);
+    upper.tail(contact_jacobian_.rows()) = contact_jacobian_.col(6 + j).transpose();
+    problem_.inequality_bound[row++] = bias - range.upper;
+    problem_.inequality.row(row) = -upper;
+    problem_.inequality_bound[row++] = range.lower - bias;
+  }
+}
+
+const Eigen::VectorXd& WholeBodyController::compute(const RigidBody& body, const RobotState& state,
+                                                    const engine::WalkingTargets& targets) {
+  find_contacts(body, targets);
+  const Eigen::Index forces = contact_jacobian_.rows();
+  const Eigen::Index n = nv_ + forces;
+  const Eigen::Index joints = nv_ - 6;
+  const Eigen::Index limits = 5 * static_cast<Eigen::Index>(contacts_.size()) + 2 * joints;
+  problem_.h.setZero(n, n);
+  problem_.h.diagonal().head(nv_).setConstant(gains_.acceleration_regularisation);
+  problem_.h.diagonal().tail(forces).setConstant(gains_.force_regularisation);
+  problem_.g.setZero(n);
+  problem_.equality.resize(6, n);
+  problem_.inequality.setZero(limits, n);
+  problem_.inequality_bound.resize(limits);
+
+  add_com_task(body, targets);
+  add_torso_task(body, targets);
+  for (std::size_t i = 0; i < feet_.size(); ++i) add_foot_task(body, feet_[i], targets.feet[i]);
+  add_dynamics(body);
+  add_limits(body, state);
+
+  if (solver_.solve(problem_) != QpStatus::solved) {
+    ++failed_solves_;
+    torque_ = -fallback_damping * state.qd;
+    return torque_;
+  }
+  const auto& x = solver_.solution();
+  torque_ = body.bias().tail(joints);
+  torque_.noalias() += body.mass_matrix().bottomRows(joints) * x.head(nv_);
+  torque_.noalias() -= contact_jacobian_.rightCols(joints).transpose() * x.tail(forces);
+  return torque_;
+}
+
+}  // namespace stagger::sim

@@ -1,0 +1,32 @@
+#include "sim/engine_setup.h"
+
+namespace stagger::sim {
+
+engine::Parameters engine_parameters(const Robot& robot, PlantKind plant,
+                                     const engine::Strategies& strategies, double tick) {
+  const BipedDescription& d = robot.description;
+  engine::Parameters p;
+  p.tick = tick;
+  p.com_height = d.walk.com_height_m;
+  p.t_ss = d.walk.t_ss_s;
+  p.t_ds = d.walk.t_ds_s;
+  p.t_init = d.walk.t_init_s;
+  p.stance_width = d.walk.stance_width_m;
+  p.swing_height = d.walk.swing_height_m;
+  p.foot_half_length = 0.5 * d.feet[0].sole.length;
+  p.foot_half_width = 0.5 * d.feet[0].sole.width;
+  p.max_step_length = d.walk.max_step_length_m;
+  p.min_step_width = d.walk.min_step_width_m;
+  p.max_step_width = d.walk.max_step_width_m;
+  p.strategies = strategies;
+
+  // Both plants report their state without noise, so the filter follows the measurement closely.
+  p.process_noise = 1e-6;
+  p.measurement_noise = 1e-8;
+  p.step_margin = 0.01;
+  // The whole-body controller keeps its corner forces this far inside the sole.
+  if (plant == PlantKind::bullet) p.sole_margin = 0.005;
+  return p;
+}
+
+}  // namespace stagger::sim

@@ -1,0 +1,95 @@
+#include "sim/experiment/trial.h"
+
+#include <cmath>
+
+#include "sim/simulation.h"
+
+namespace stagger::sim {
+namespace {
+
+/// A step that lands farther than this from its plan is a recovery step [m].
+constexpr double recovery_step = 0.03;
+/// How long a push may wait for its phase or time beyond the settling [s].
+constexpr double trigger_patience_s = 10.0;
+
+std::uint64_t ticks_of(double seconds) {
+  return static_cast<std::uint64_t>(std::llround(seconds / Simulation::tick_s));
+}
+
+/// Counts the steps since the push began, and which of them was the last recovery step.
+struct RecoveryCount {
+  std::uint64_t steps = 0;
+  std::uint64_t last_recovery = 0;
+
+  void take(const std::vector<Event>& events) {
+    for (const Event& event : events) {
+      if (event.kind != EventKind::step) continue;
+      ++steps;
+      for (const auto& [name, value] : event.values) {
+        if (name == "adjustment" && value > recovery_step) last_recovery = steps;
+      }
+    }
+  }
+};
+
+}  // namespace
+
+TrialResult run_trial(const TrialSpec& spec, std::shared_ptr<const Robot> robot) {
+  Simulation simulation({std::move(robot), spec.plant, spec.seed, spec.strategies});
+  simulation.walk(spec.walk);
+  TrialResult result;
+
+  const auto finish = [&](TrialOutcome outcome, std::string reason) {
+    result.outcome = outcome;
+    result.reason = std::move(reason);
+    result.worst_dcm_error_m = simulation.worst_dcm_error();
+    result.ticks = simulation.next_tick();
+    result.state_hash = simulation.state_hash();
+    return result;
+  };
+  const auto fell = [&] { return !simulation.fall_reason().empty(); };
+
+  const std::uint64_t settle = ticks_of(spec.settle_s);
+  while (simulation.next_tick() < settle && !fell()) simulation.step();
+  if (fell()) {
+    result.fall_time_s = simulation.frame().time;
+    return finish(TrialOutcome::invalid, "before the push: " + simulation.fall_reason());
+  }
+  simulation.take_events();
+
+  RecoveryCount recovery;
+  if (spec.push) {
+    simulation.push(*spec.push);
+    // Safe to hold on to: this simulation gets no second push.
+    const PushRecord& push = simulation.pushes().back();
+    double patience = trigger_patience_s;
+    if (const auto* at = std::get_if<TimeTrigger>(&spec.push->trigger)) patience += at->at_s;
+    const std::uint64_t latest = settle + ticks_of(patience);
+    while (!push.start_tick && !fell()) {
+      if (simulation.next_tick() >= latest) {
+        return finish(TrialOutcome::timeout, "the push's trigger never came");
+      }
+      simulation.take_events();
+      simulation.step();
+    }
+    if (!push.start_tick) {
+      result.fall_time_s = simulation.frame().time;
+      return finish(TrialOutcome::invalid, "before the push: " + simulation.fall_reason());
+    }
+    result.push_tick = push.start_tick;
+    while (push.state == PushState::active && !fell()) simulation.step();
+    result.delivered_ns = push.delivered.norm();
+  }
+
+  const std::uint64_t end = simulation.next_tick() + ticks_of(spec.observe_s);
+  while (simulation.next_tick() < end && !fell()) simulation.step();
+  recovery.take(simulation.take_events());
+  if (fell()) {
+    result.fall_time_s = simulation.frame().time;
+    return finish(TrialOutcome::fell, simulation.fall_reason());
+  }
+  result.steps_to_recover = recovery.last_recovery;
+  return finish(TrialOutcome::recovered, {});
+}
+
+}  // namespace stagger::sim

@@ -1,0 +1,49 @@
+// One trial: settle, push, observe. A pure function from its specification to its result.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "engine/parameters.h"
+#include "sim/plant/plant.h"
+#include "sim/plant/push.h"
+#include "sim/robot/robot.h"
+
+namespace stagger::sim {
+
+struct TrialSpec {
+  std::string robot;  ///< required
+  PlantKind plant = PlantKind::bullet;
+  std::uint64_t seed = 1;
+  engine::WalkCommand walk;
+  engine::Strategies strategies;
+  double settle_s = 3.0;   ///< walking before the push may start [s]
+  double observe_s = 4.0;  ///< after the push has ended [s]
+  std::optional<PushSpec> push;
+};
+
+enum class TrialOutcome : std::uint8_t {
+  recovered,  ///< still up when the observation ended
+  fell,       ///< fell during or after the push
+  timeout,    ///< the push never started, or never ended
+  invalid     ///< fell before the push started: says nothing about the push
+};
+
+struct TrialResult {
+  TrialOutcome outcome = TrialOutcome::invalid;
+  std::string reason;            ///< of a fall, a time-out or an invalid trial; else empty
+  double delivered_ns = 0.0;     ///< norm of the impulse that really acted [N s]
+  std::optional<std::uint64_t> push_tick;   ///< first tick of the push
+  std::optional<std::uint64_t> steps_to_recover;  ///< steps until back at the commanded gait
+  std::optional<double> fall_time_s;
+  double worst_dcm_error_m = 0.0;
+  std::uint64_t ticks = 0;
+  std::uint64_t state_hash = 0;
+};
+
+/// Runs in a world built afresh, so that the same specification gives the same result to the bit.
+TrialResult run_trial(const TrialSpec& spec, std::shared_ptr<const Robot> robot);
+
+}  // namespace stagger::sim

@@ -1,0 +1,58 @@
+// What a URDF does not say about a biped: which links are its feet, how it stands, how it walks.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "engine/types.h"
+
+namespace stagger::sim {
+
+class JsonReader;
+
+/// The rectangle that a foot stands on, in the frame of the foot's link: its plane is normal to the
+/// link's z axis, its length runs along the link's x axis.
+struct SoleDescription {
+  engine::Vec3 position = engine::Vec3::Zero();  ///< centre [m]
+  double length = 0.0;                           ///< [m]
+  double width = 0.0;                            ///< [m]
+};
+
+struct FootDescription {
+  std::string link;
+  SoleDescription sole;
+};
+
+/// Walking parameters that suit this robot; they fill the engine's Parameters.
+struct WalkDescription {
+  double com_height_m = 0.0;  ///< above the soles, in the nominal pose and while walking
+  double stance_width_m = 0.0;
+  double swing_height_m = 0.0;
+  double t_ss_s = 0.0;
+  double t_ds_s = 0.0;
+  double t_init_s = 0.0;
+  double max_step_length_m = 0.0;
+  double min_step_width_m = 0.0;
+  double max_step_width_m = 0.0;
+};
+
+/// robots/<name>/robot.json
+struct BipedDescription {
+  int version = 1;
+  std::string urdf;   ///< file beside robot.json
+  std::string base;   ///< link whose yaw is the robot's heading
+  std::string torso;  ///< link that is kept upright and that pushes act on by default
+  engine::PerFoot<FootDescription> feet;
+  std::map<std::string, double> nominal_pose;  ///< joint -> angle [rad]; joints not named are at 0
+  WalkDescription walk;
+};
+
+/// Reads robot.json. Links and joints are only names here: load_robot() checks them against the
+/// URDF. Throws std::runtime_error with every error found: file, line, field, value, allowed range.
+BipedDescription read_biped_description(const std::filesystem::path& file);
+
+/// The same from a reader that stands at the root of the description.
+BipedDescription read_biped_description(JsonReader& reader);
+
+}  // namespace stagger::sim

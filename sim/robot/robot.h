@@ -1,0 +1,38 @@
+// A robot as this project knows it: a URDF model and the small description beside it.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sim/robot/biped_description.h"
+#include "sim/robot/robot_model.h"
+
+namespace stagger::sim {
+
+struct Robot {
+  std::string name;
+  std::filesystem::path folder;  ///< holds robot.urdf and robot.json
+  RobotModel model;
+  BipedDescription description;
+
+  /// Index of the body that the foot's link belongs to.
+  int foot_body(engine::Side side) const;
+  /// Frame of the sole in that body: origin at the sole's centre, x along its length, z up.
+  Eigen::Isometry3d sole_in_body(engine::Side side) const;
+};
+
+/// Reads folder/robot.json and the URDF that it names. Throws std::runtime_error with a message
+/// that names the file, the field, its value and what is allowed.
+std::shared_ptr<const Robot> load_robot(const std::filesystem::path& folder);
+
+/// Names of the robots in a folder of robots, sorted.
+std::vector<std::string> list_robots(const std::filesystem::path& robots);
+
+/// At rest in the nominal pose: soles on the ground (z = 0), their mid-point at the world's origin,
+/// heading along x. The base is turned so that the left sole is flat.
+RobotState nominal_state(const Robot& robot);
+
+}  // namespace stagger::sim

@@ -1,0 +1,100 @@
+// Plant + engine + pushes, one Frame a tick. Deterministic: the same configuration and the same
+// calls at the same ticks give the same frames to the bit.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/parameters.h"
+#include "engine/walking_engine.h"
+#include "sim/channels.h"
+#include "sim/frame.h"
+#include "sim/plant/plant.h"
+#include "sim/plant/push.h"
+#include "sim/robot/robot.h"
+#include "sim/state_hash.h"
+
+namespace stagger::sim {
+
+struct SimulationConfig {
+  std::shared_ptr<const Robot> robot;  ///< required
+  PlantKind plant = PlantKind::bullet;
+  std::uint64_t seed = 1;
+  engine::Strategies strategies;
+};
+
+enum class EventKind : std::uint8_t { step, push_started, push_done, push_cancelled, fall };
+
+/// Something that happened at one tick. Values are named numbers, the text is for people.
+struct Event {
+  std::uint64_t tick = 0;
+  double time = 0.0;
+  EventKind kind = EventKind::step;
+  std::string text;
+  std::vector<std::pair<std::string, double>> values;
+};
+
+class Simulation {
+ public:
+  /// Physics and control period [s].
+  static constexpr double tick_s = 0.001;
+
+  explicit Simulation(SimulationConfig config);
+
+  /// Runs one tick and returns its frame: the state at the tick's beginning, the targets made from
+  /// it and the pushes that act from then on. A fallen robot goes limp; time goes on.
+  const Frame& step();
+  const Frame& frame() const { return frame_; }
+  /// The tick that the next step() runs: commands given now take effect there.
+  std::uint64_t next_tick() const { return tick_; }
+
+  /// Start walking (zero velocity: step in place) or change the command. Takes effect next tick.
+  void walk(const engine::WalkCommand& command);
+  /// Finish the step that is under way and stand.
+  void stop_walking();
+  void set_strategies(const engine::Strategies& strategies);
+
+  /// Adds a push (validated against the robot's links: throws std::invalid_argument for an unknown
+  /// link) and returns its id.
+  std::uint64_t push(const PushSpec& spec);
+  bool cancel_push(std::uint64_t id);
+  const std::vector<PushRecord>& pushes() const { return pushes_.records(); }
+
+  /// Events since the last call.
+  std::vector<Event> take_events() { return std::exchange(events_, {}); }
+
+  /// Greatest distance of the measured DCM from its reference so far, while not fallen [m].
+  double worst_dcm_error() const { return worst_dcm_error_; }
+  /// Hash over the plant's state of every tick so far.
+  std::uint64_t state_hash() const { return hash_.value(); }
+  /// Empty while the robot is up.
+  const std::string& fall_reason() const { return fall_reason_; }
+
+  const SimulationConfig& config() const { return config_; }
+  const std::vector<Channel>& channels() const { return channels_; }
+
+ private:
+  void note_landing(const engine::WalkingTargets& targets);
+  void note_pushes();
+  void note_fall();
+  void fill_frame(const engine::WalkingTargets& targets);
+  void emit(EventKind kind, std::string text,
+            std::vector<std::pair<std::string, double>> values = {});
+
+  SimulationConfig config_;
+  std::vector<Channel> channels_;
+  std::unique_ptr<Plant> plant_;
+  engine::WalkingEngine engine_;
+  PushSchedule pushes_;
+  std::vector<std::pair<std::size_t, PushState>> open_pushes_;  ///< as last told in an event
+  std::uint64_t tick_ = 0;              ///< of the next step()
+  Frame frame_;
+  std::vector<Event> events_;
+  StateHash hash_;
+  std::string fall_reason_;
+  double worst_dcm_error_ = 0.0;
+};
+
+}  // namespace stagger::sim

@@ -1,0 +1,70 @@
+#include "engine/swing.h"
+
+#include <gtest/gtest.h>
+
+namespace stagger::engine {
+namespace {
+
+const FootPose lift_off{Vec3(0.0, 0.1, 0.0), 0.0};
+const FootPose landing{Vec3(0.3, 0.12, 0.02), 0.2};
+
+SwingTrajectory swing() {
+  SwingTrajectory trajectory;
+  trajectory.start(lift_off, landing, 0.4, 0.05);
+  return trajectory;
+}
+
+TEST(Swing, StartsAndEndsAtRestOnTheGround) {
+  const SwingTrajectory trajectory = swing();
+  const FootTarget start = trajectory.at(0.0);
+  const FootTarget end = trajectory.at(0.4);
+  EXPECT_LT((start.position - lift_off.position).norm(), 1e-12);
+  EXPECT_LT((end.position - landing.position).norm(), 1e-12);
+  EXPECT_NEAR(end.yaw, 0.2, 1e-12);
+  for (const FootTarget& foot : {start, end}) {
+    EXPECT_LT(foot.velocity.norm(), 1e-9);
+    EXPECT_LT(foot.acceleration.norm(), 1e-9);
+  }
+}
+
+TEST(Swing, ClearsTheGroundByTheSwingHeight) {
+  SwingTrajectory trajectory;
+  trajectory.start(lift_off, {Vec3(0.3, 0.1, 0.0), 0.0}, 0.4, 0.05);
+  double highest = 0.0;
+  for (int i = 0; i <= 400; ++i) highest = std::max(highest, trajectory.at(i * 0.001).position.z());
+  EXPECT_NEAR(highest, 0.05, 1e-9);
+}
+
+TEST(Swing, DerivativesAreOfThePosition) {
+  const SwingTrajectory trajectory = swing();
+  const double h = 1e-6;
+  for (const double t : {0.05, 0.2, 0.33}) {
+    const FootTarget now = trajectory.at(t);
+    const FootTarget before = trajectory.at(t - h);
+    const FootTarget after = trajectory.at(t + h);
+    EXPECT_LT((now.velocity - (after.position - before.position) / (2 * h)).norm(), 1e-6);
+    EXPECT_LT((now.acceleration - (after.velocity - before.velocity) / (2 * h)).norm(), 1e-5);
+    EXPECT_NEAR(now.yaw_velocity, (after.yaw - before.yaw) / (2 * h), 1e-6);
+  }
+}
+
+TEST(Swing, RetargetKeepsPositionVelocityAndAcceleration) {
+  SwingTrajectory trajectory = swing();
+  const FootTarget before = trajectory.at(0.15);
+  const FootPose elsewhere{Vec3(0.5, 0.0, 0.02), -0.1};
+  trajectory.retarget(elsewhere, 0.15, 0.4);
+  const FootTarget after = trajectory.at(0.15);
+  EXPECT_LT((after.position - before.position).head<2>().norm(), 1e-12);
+  EXPECT_LT((after.velocity - before.velocity).head<2>().norm(), 1e-10);
+  EXPECT_LT((after.acceleration - before.acceleration).head<2>().norm(), 1e-8);
+  EXPECT_LT((trajectory.at(0.4).position - elsewhere.position).norm(), 1e-12);
+}
+
+TEST(Swing, FeelsForTheGroundWhenItIsLate) {
+  const FootTarget late = swing().at(0.45);
+  EXPECT_NEAR(late.position.z(), 0.02 - SwingTrajectory::landing_speed * 0.05, 1e-12);
+  EXPECT_LT(late.velocity.z(), 0.0);
+}
+
+}  // namespace
+}  // namespace stagger::engine

@@ -1,0 +1,180 @@
+// The whole engine on a point mass that this test integrates on its own.
+#include "engine/walking_engine.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/engine/integrate.h"
+
+namespace stagger::engine {
+namespace {
+
+Parameters quick() {
+  Parameters p;
+  p.tick = 0.001;
+  p.t_ss = 0.4;
+  p.t_ds = 0.1;
+  p.t_init = 0.6;
+  p.measurement_noise = 1e-8;
+  p.step_margin = 0.01;
+  return p;
+}
+
+class Walk {
+ public:
+  explicit Walk(const Parameters& parameters = quick())
+      : parameters_(parameters), omega_(natural_frequency(parameters)), engine_(parameters, start()) {}
+
+  void run(double seconds) {
+    const int ticks = static_cast<int>(std::lround(seconds / parameters_.tick));
+    for (int i = 0; i < ticks; ++i) tick();
+  }
+  void push(const Vec2& velocity) { mass_.velocity += velocity; }
+
+  WalkingEngine& engine() { return engine_; }
+  Vec2 dcm() const { return mass_.dcm(omega_); }
+  Vec2 com() const { return mass_.com; }
+  Vec2 velocity() const { return mass_.velocity; }
+  double worst_error() const { return worst_error_; }
+  double worst_velocity_jump() const { return worst_velocity_jump_; }
+  const Measurement& measurement() const { return measurement_; }
+  void forget() { worst_error_ = 0.0; }
+
+ private:
+  Measurement start() {
+    measurement_.com = {0.0, 0.0, parameters_.com_height};
+    measurement_.feet[0].position = {0.0, 0.5 * parameters_.stance_width, 0.0};
+    measurement_.feet[1].position = {0.0, -0.5 * parameters_.stance_width, 0.0};
+    return measurement_;
+  }
+
+  void tick() {
+    measurement_.com.head<2>() = mass_.com;
+    measurement_.com_velocity.head<2>() = mass_.velocity;
+    const WalkingTargets& t = engine_.update(measurement_);
+    worst_error_ = std::max(worst_error_, (dcm() - t.dcm_reference).norm());
+    const Vec2 jump = t.com_velocity_reference - last_velocity_;
+    worst_velocity_jump_ = std::max(worst_velocity_jump_, jump.norm());
+    last_velocity_ = t.com_velocity_reference;
+    const Vec2 zmp = t.zmp_command;
+    mass_ = testing::integrate(mass_, [&](double) { return zmp; }, parameters_.tick, omega_, 1);
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (!t.feet[i].in_contact) measurement_.feet[i] = {t.feet[i].position, t.feet[i].yaw};
+      measurement_.foot_load[i] = measurement_.feet[i].position.z() <= 0.0 ? 150.0 : 0.0;
+    }
+  }
+
+  Parameters parameters_;
+  double omega_;
+  Measurement measurement_;
+  WalkingEngine engine_;
+  testing::PointMass mass_;
+  Vec2 last_velocity_ = Vec2::Zero();
+  double worst_error_ = 0.0;
+  double worst_velocity_jump_ = 0.0;
+};
+
+TEST(WalkingEngine, StandsStill) {
+  Walk walk;
+  walk.run(5.0);
+  EXPECT_LT(walk.com().norm(), 1e-9);
+  EXPECT_EQ(walk.engine().targets().state, WalkingState::idle);
+}
+
+TEST(WalkingEngine, StepsInPlaceOnItsReference) {
+  Walk walk;
+  walk.engine().walk({});
+  walk.run(20.0);
+  EXPECT_EQ(walk.engine().targets().step_count, 38U);
+  EXPECT_LT(walk.worst_error(), 2e-3);
+  EXPECT_NEAR(walk.com().x(), 0.0, 1e-9);
+}
+
+TEST(WalkingEngine, ReferenceVelocityNeverJumps) {
+  Walk walk;
+  walk.engine().walk({});
+  walk.run(10.0);
+  // w^2 times the longest lever arm (0.2 m) times a tick, with room to spare for the replanning.
+  EXPECT_LT(walk.worst_velocity_jump(), 9.81 * 0.2 * 0.001 * 2.0);
+}
+
+TEST(WalkingEngine, WalksAtTheCommandedVelocity) {
+  Walk walk;
+  walk.engine().walk({0.3, 0.0, 0.0});
+  walk.run(3.0);
+  const double start = walk.com().x();
+  walk.run(10.0);
+  EXPECT_NEAR(walk.com().x() - start, 3.0, 0.02);
+}
+
+TEST(WalkingEngine, StopsInTheMiddleOfItsFeet) {
+  for (const double when : {3.0, 3.13, 3.27, 3.41}) {
+    Walk walk;
+    walk.engine().walk({0.2, 0.0, 0.0});
+    walk.run(when);
+    walk.engine().stop();
+    walk.run(5.0);
+    EXPECT_EQ(walk.engine().targets().state, WalkingState::idle) << when;
+    const auto& feet = walk.measurement().feet;
+    const Vec2 middle = 0.5 * (feet[0].position + feet[1].position).head<2>();
+    EXPECT_LT((walk.com() - middle).norm(), 2e-3) << when;
+    EXPECT_LT(walk.velocity().norm(), 2e-3) << when;
+    EXPECT_NEAR((feet[0].position - feet[1].position).norm(), 0.2, 1e-6) << when;
+  }
+}
+
+TEST(WalkingEngine, StartsAgainAfterAStop) {
+  Walk walk;
+  walk.engine().walk({});
+  walk.run(2.0);
+  walk.engine().stop();
+  walk.run(0.3);
+  walk.engine().walk({});
+  const auto steps = walk.engine().targets().step_count;
+  walk.run(5.0);
+  EXPECT_GT(walk.engine().targets().step_count, steps + 6);
+  EXPECT_LT((walk.dcm() - walk.engine().targets().dcm_reference).norm(), 5e-3);
+}
+
+TEST(WalkingEngine, TakesPushesInEveryDirectionByStepping) {
+  for (int direction = 0; direction < 360; direction += 45) {
+    for (const double when : {4.0, 4.17, 4.33}) {
+      Walk walk;
+      walk.engine().walk({});
+      walk.run(when);
+      const double angle = direction * M_PI / 180.0;
+      walk.push(0.2 * Vec2(std::cos(angle), std::sin(angle)));
+      walk.run(5.0);
+      walk.forget();
+      walk.run(2.0);
+      EXPECT_LT(walk.worst_error(), 5e-3) << direction << " deg at " << when << " s";
+    }
+  }
+}
+
+TEST(WalkingEngine, WithoutStepsThatPushIsTooMuch) {
+  Walk walk;
+  Strategies ankle_only;
+  ankle_only.step = false;
+  walk.engine().set_strategies(ankle_only);
+  walk.engine().walk({});
+  walk.run(4.17);
+  walk.push({0.4, 0.0});
+  walk.run(3.0);
+  EXPECT_GT(walk.worst_error(), 1.0);
+}
+
+TEST(WalkingEngine, TheSwingFootGoesToTheAdjustedStep) {
+  Walk walk;
+  walk.engine().walk({});
+  walk.run(4.05);
+  while (walk.engine().targets().state != WalkingState::single_support) walk.run(0.001);
+  walk.run(0.1);
+  walk.push({0.2, 0.0});
+  while (walk.engine().targets().state == WalkingState::single_support) walk.run(0.001);
+  const Side landed = other(walk.engine().targets().support_side);
+  // 0.2 / omega, magnified until touchdown and by the transfer: about 0.18 m.
+  EXPECT_GT(walk.measurement().feet[index(landed)].position.x(), 0.12);
+}
+
+}  // namespace
+}  // namespace stagger::engine

@@ -1,0 +1,52 @@
+// Small helpers around the page's elements and the numbers in them.
+
+/** The element with this id; a page without it is a mistake in index.html. */
+export function byId<T extends Element>(id: string, type: abstract new (...args: never[]) => T): T {
+  const element = document.getElementById(id);
+  if (!(element instanceof type)) throw new Error(`index.html has no ${type.name} #${id}`);
+  return element;
+}
+
+/** Sets the text only when it differs: leaves selections and screen readers alone. */
+export function setText(element: Element, text: string): void {
+  if (element.textContent !== text) element.textContent = text;
+}
+
+/** A fixed number of digits, a real minus sign, and a dash where there is no number. */
+export function formatNumber(value: number | undefined, digits: number): string {
+  if (value === undefined || !Number.isFinite(value)) return '–';
+  const text = value.toFixed(digits);
+  return (Number(text) === 0 ? text.replace('-', '') : text).replace('-', '−');
+}
+
+/** A value of a number field; NaN when it is empty or not a number. */
+export function numberIn(input: HTMLInputElement): number {
+  return input.value.trim() === '' ? Number.NaN : input.valueAsNumber;
+}
+
+/** Shows what went wrong, or nothing. */
+export function showLines(element: HTMLElement, lines: readonly string[]): void {
+  element.replaceChildren(
+    ...lines.map((line) => {
+      const row = document.createElement('span');
+      row.textContent = line;
+      return row;
+    }),
+  );
+}
+
+/** Fills a select, keeping its value where that is still offered. */
+export function fillSelect(
+  select: HTMLSelectElement,
+  values: readonly string[],
+  preferred: string,
+): void {
+  const present = Array.from(select.options, (option) => option.value);
+  const same = present.length === values.length && present.every((value, i) => value === values[i]);
+  if (!same) {
+    const before = select.value;
+    select.replaceChildren(...values.map((value) => new Option(value, value)));
+    if (values.includes(before)) select.value = before;
+    else if (values.includes(preferred)) select.value = preferred;
+  }
+}

@@ -1,0 +1,203 @@
+// Pause, resume, step, reset, strategies, and how the simulation is doing.
+
+import type { Api } from '../api';
+import { linesOf } from '../api';
+import { byId, fillSelect, formatNumber, numberIn, setText, showLines } from '../dom';
+import type { Store } from '../store';
+
+const pollMs = 1000;
+
+/** Rows of a list of facts, made once and then only rewritten. */
+export class Facts {
+  private readonly values = new Map<string, HTMLElement>();
+
+  constructor(list: HTMLElement, rows: readonly (readonly [name: string, full?: boolean])[]) {
+    for (const [name, full] of rows) {
+      const row = document.createElement('div');
+      if (full === true) row.className = 'full';
+      const term = document.createElement('dt');
+      term.textContent = name;
+      const value = document.createElement('dd');
+      value.textContent = '–';
+      row.append(term, value);
+      list.append(row);
+      this.values.set(name, value);
+    }
+  }
+
+  set(name: string, text: string): void {
+    const value = this.values.get(name);
+    if (value !== undefined) setText(value, text === '' ? '–' : text);
+  }
+}
+
+export class SimulationPanel {
+  private readonly pause = byId('pause', HTMLButtonElement);
+  private readonly step = byId('step', HTMLButtonElement);
+  private readonly robot = byId('robot', HTMLSelectElement);
+  private readonly plant = byId('plant', HTMLSelectElement);
+  private readonly seed = byId('seed', HTMLInputElement);
+  private readonly strategies = byId('strategies', HTMLElement);
+  private readonly transportError = byId('transport-error', HTMLElement);
+  private readonly error = byId('simulation-error', HTMLElement);
+  private readonly facts = new Facts(byId('facts', HTMLElement), [
+    ['Tick'],
+    ['Steps'],
+    ['Late ticks'],
+    ['Frames dropped'],
+    ['Seed'],
+    ['Version'],
+    ['Greatest DCM error', true],
+    ['State hash', true],
+    ['Session', true],
+  ]);
+  private reading = false;
+
+  constructor(
+    private readonly store: Store,
+    private readonly api: Api,
+  ) {
+    const { transportError } = this;
+    this.pause.addEventListener('click', () => {
+      const { running } = this.store;
+      void this.command(transportError, async () => {
+        await (running ? this.api.pause() : this.api.resume());
+        this.store.setRunning(!running);
+      });
+    });
+    this.step.addEventListener('click', () => {
+      const ticks = numberIn(byId('step-ticks', HTMLInputElement));
+      void this.command(transportError, () => this.api.step(ticks));
+    });
+    for (const id of ['reset', 'fall-reset']) {
+      byId(id, HTMLButtonElement).addEventListener(
+        'click',
+        () => void this.command(transportError, () => this.api.reset({})),
+      );
+    }
+    byId('reset-form', HTMLFormElement).addEventListener('submit', (event) => {
+      event.preventDefault();
+      const seed = numberIn(this.seed);
+      void this.command(this.error, () =>
+        this.api.reset({
+          robot: this.robot.value,
+          plant: this.plant.value,
+          ...(Number.isFinite(seed) ? { seed } : {}),
+        }),
+      );
+    });
+    store.on('running', () => this.showRunning());
+    store.on('simulation', () => this.show());
+    store.on('robots', () => this.showRobots());
+    store.on('hello', () => {
+      showLines(this.transportError, []);
+      showLines(this.error, []);
+      this.showRobots();
+      this.showChoice();
+      void this.read();
+    });
+    store.on('event', () => {
+      const kind = store.events[store.events.length - 1]?.kind;
+      if (kind === 'command' || kind === 'fall') void this.read();
+    });
+    store.on('condition', () => this.showRunning());
+    setInterval(() => {
+      if (!document.hidden && store.connection.kind === 'open') void this.read();
+    }, pollMs);
+    this.showRunning();
+  }
+
+  /** Asks the server for the simulation's state. */
+  async read(): Promise<void> {
+    if (this.reading) return;
+    this.reading = true;
+    try {
+      this.store.setSimulation(await this.api.simulation());
+    } catch {
+      // The connection's own state tells that the server is away.
+    } finally {
+      this.reading = false;
+    }
+  }
+
+  private async command(where: HTMLElement, send: () => Promise<unknown>): Promise<void> {
+    try {
+      await send();
+      showLines(this.transportError, []);
+      showLines(this.error, []);
+    } catch (error) {
+      showLines(where, linesOf(error));
+    }
+    void this.read();
+  }
+
+  private showRunning(): void {
+    const { running, connection } = this.store;
+    const away = connection.kind !== 'open';
+    setText(this.pause, running ? 'Pause' : 'Resume');
+    this.pause.disabled = away;
+    this.step.disabled = away || running;
+    byId('reset', HTMLButtonElement).disabled = away;
+  }
+
+  private showRobots(): void {
+    const { hello, robots } = this.store;
+    const names = robots.map((robot) => robot.name);
+    if (hello !== null && !names.includes(hello.robot)) names.unshift(hello.robot);
+    fillSelect(this.robot, names, hello?.robot ?? '');
+  }
+
+  /** A new session: the form starts from what is there. */
+  private showChoice(): void {
+    const { hello } = this.store;
+    if (hello === null) return;
+    this.robot.value = hello.robot;
+    this.plant.value = hello.plant;
+  }
+
+  private show(): void {
+    const { simulation } = this.store;
+    if (simulation === null) return;
+    this.facts.set('Tick', `${simulation.tick}`);
+    this.facts.set('Steps', `${simulation.stepCount}`);
+    this.facts.set('Late ticks', `${simulation.lateTicks}`);
+    this.facts.set('Greatest DCM error', `${formatNumber(simulation.worstDcmErrorM, 3)} m`);
+    this.facts.set('Frames dropped', `${this.store.framesDropped}`);
+    this.facts.set('Seed', `${simulation.seed}`);
+    this.facts.set('Version', simulation.version);
+    this.facts.set('State hash', simulation.stateHash);
+    this.facts.set('Session', simulation.sessionId);
+    this.showStrategies(simulation.strategies);
+  }
+
+  private showStrategies(strategies: Readonly<Record<string, boolean>>): void {
+    const names = Object.keys(strategies);
+    const shown = Array.from(
+      this.strategies.querySelectorAll('input'),
+      (input) => input.dataset['strategy'],
+    );
+    if (shown.join() !== names.join()) {
+      this.strategies.replaceChildren(...names.map((name) => this.strategySwitch(name)));
+    }
+    for (const input of this.strategies.querySelectorAll('input')) {
+      const on = strategies[input.dataset['strategy'] ?? ''];
+      if (on !== undefined) input.checked = on;
+    }
+  }
+
+  private strategySwitch(name: string): HTMLLabelElement {
+    const label = document.createElement('label');
+    label.className = 'check';
+    const input = document.createElement('input');
+    input.type = 'checkbox';
+    input.id = `strategy-${name}`;
+    input.dataset['strategy'] = name;
+    label.htmlFor = input.id;
+    label.append(input, name);
+    input.addEventListener('change', () => {
+      const on = input.checked;
+      void this.command(this.error, () => this.api.setStrategies({ [name]: on }));
+    });
+    return label;
+  }
+}

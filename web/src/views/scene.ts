@@ -1,0 +1,279 @@
+// The 3D view: the robot on the ground, the push that acts on it, a camera that goes along.
+
+import * as THREE from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import type { Api } from '../api';
+import { linesOf } from '../api';
+import { byId, setText } from '../dom';
+import type { Store } from '../store';
+import type { Theme } from '../theme';
+import { loadRobotFigure, makePendulum } from './figure';
+import type { Figure } from './figure';
+import { GroundMarks } from './ground_marks';
+import { lag } from './transform';
+
+export type Preset = 'behind' | 'side' | 'front';
+
+/** Azimuth from the robot's front, counted to its left, and elevation of each preset [deg]. */
+const presets: Readonly<Record<Preset, readonly [number, number]>> = {
+  behind: [-145, 16],
+  side: [-90, 8],
+  front: [-35, 14],
+};
+const followTau = 0.35;
+
+export class SceneView {
+  private readonly renderer: THREE.WebGLRenderer;
+  private readonly scene = new THREE.Scene();
+  private readonly camera = new THREE.PerspectiveCamera(36, 1, 0.02, 80);
+  private readonly controls: OrbitControls;
+  private readonly sun = new THREE.DirectionalLight(0xffffff, 2.6);
+  private readonly sky = new THREE.HemisphereLight(0xf4f7fb, 0x7d848c, 1.25);
+  private readonly floor: THREE.Mesh<THREE.PlaneGeometry, THREE.ShadowMaterial>;
+  private grid: THREE.GridHelper | null = null;
+  private readonly marks: GroundMarks;
+  private readonly arrow: THREE.ArrowHelper;
+  private readonly pushLabel = byId('push-label', HTMLElement);
+  private readonly note = byId('scene-note', HTMLElement);
+  private figure: Figure | null = null;
+  private wanted = '';
+  private dirty = true;
+  private drawnVersion = -1;
+  private lastTime = 0;
+  private settled = false;
+  private framesDrawn = 0;
+  private drawnTick: number | null = null;
+  private pushState: Record<string, unknown> | null = null;
+  follow = true;
+
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly store: Store,
+    private readonly api: Api,
+    private theme: Theme,
+  ) {
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = THREE.PCFShadowMap;
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.maxPolarAngle = 0.495 * Math.PI;
+    this.controls.enableDamping = false;
+    this.controls.addEventListener('change', () => (this.dirty = true));
+
+    this.sky.position.set(0, 0, 1);
+    this.sun.castShadow = true;
+    this.sun.shadow.mapSize.set(1024, 1024);
+    this.sun.shadow.radius = 4;
+    this.sun.shadow.bias = -0.0006;
+    this.floor = new THREE.Mesh(
+      new THREE.PlaneGeometry(60, 60),
+      // Drawn before the grid and never in front of it.
+      new THREE.ShadowMaterial({ opacity: 0.2, depthWrite: false }),
+    );
+    this.floor.receiveShadow = true;
+    this.floor.renderOrder = -1;
+    this.marks = new GroundMarks(theme);
+    this.arrow = new THREE.ArrowHelper(new THREE.Vector3(1, 0, 0));
+    this.arrow.visible = false;
+    this.scene.add(this.sky, this.sun, this.sun.target, this.floor, this.marks.object, this.arrow);
+    this.setTheme(theme);
+    this.preset('behind');
+
+    new ResizeObserver(() => (this.dirty = true)).observe(canvas);
+    store.on('hello', () => {
+      this.settled = false;
+      this.chooseFigure();
+    });
+    store.on('robot', () => this.chooseFigure());
+    this.chooseFigure();
+  }
+
+  setTheme(theme: Theme): void {
+    this.theme = theme;
+    this.scene.background = new THREE.Color(theme.ground);
+    this.scene.fog = new THREE.Fog(theme.ground, 4, 13);
+    if (this.grid !== null) {
+      this.scene.remove(this.grid);
+      this.grid.geometry.dispose();
+    }
+    // Squares of 0.25 m.
+    this.grid = new THREE.GridHelper(40, 160, theme.muted, theme.muted);
+    this.grid.rotation.x = Math.PI / 2;
+    const material = this.grid.material as THREE.Material;
+    material.transparent = true;
+    material.opacity = 0.26;
+    this.scene.add(this.grid);
+    this.marks.setTheme(theme);
+    this.figure?.setTheme(theme);
+    this.arrow.setColor(theme.ink);
+    this.dirty = true;
+  }
+
+  /** Looks at the robot from one of the named sides. */
+  preset(name: Preset): void {
+    const unit = this.store.robot?.comHeightM ?? 1;
+    const [azimuthDeg, elevationDeg] = presets[name];
+    const azimuth = (azimuthDeg * Math.PI) / 180;
+    const elevation = (elevationDeg * Math.PI) / 180;
+    const distance = 3.3 * unit;
+    const { target } = this.controls;
+    target.z = 0.83 * unit;
+    this.camera.position.set(
+      target.x + distance * Math.cos(elevation) * Math.cos(azimuth),
+      target.y + distance * Math.cos(elevation) * Math.sin(azimuth),
+      target.z + distance * Math.sin(elevation),
+    );
+    this.controls.update();
+    this.dirty = true;
+  }
+
+  update(nowMs: number): void {
+    const dt = Math.min(0.1, Math.max(0, (nowMs - this.lastTime) / 1000));
+    this.lastTime = nowMs;
+    const moving = this.followRobot(dt);
+    if (!moving && !this.dirty && this.drawnVersion === this.store.version) return;
+    this.dirty = false;
+    this.drawnVersion = this.store.version;
+    this.fit();
+    if (this.store.frame !== null) {
+      this.figure?.pose(this.store);
+      this.marks.update(this.store);
+    }
+    this.marks.object.visible = this.store.frame !== null;
+    if (this.figure !== null) this.figure.object.visible = this.store.frame !== null;
+    this.updateArrow();
+    this.renderer.render(this.scene, this.camera);
+    this.framesDrawn += 1;
+    this.drawnTick = this.store.frame?.tick ?? null;
+  }
+
+  state(): Record<string, unknown> {
+    return {
+      tick: this.drawnTick,
+      frames_drawn: this.framesDrawn,
+      figure: this.figure?.state() ?? null,
+      marks: this.marks.state(),
+      push_arrow: this.pushState,
+      camera: {
+        position: this.camera.position.toArray(),
+        target: this.controls.target.toArray(),
+        follow: this.follow,
+      },
+    };
+  }
+
+  /** The figure that the session needs; an answer that comes too late is thrown away. */
+  private chooseFigure(): void {
+    const { hello, robot } = this.store;
+    if (hello === null) return;
+    const known = robot?.name === hello.robot ? robot : null;
+    const wanted = `${hello.plant} ${hello.robot} ${known?.baseLink ?? '?'} ${known?.sole.lengthM}`;
+    if (wanted === this.wanted) return;
+    // The base link and the size come with the robot; it is on its way.
+    if (known === null) return;
+    this.wanted = wanted;
+    this.preset('behind');
+    if (hello.plant === 'lipm') {
+      this.setFigure(makePendulum(known, this.theme));
+      return;
+    }
+    const changed = (): void => {
+      this.dirty = true;
+    };
+    loadRobotFigure(this.api, hello.robot, known.baseLink, changed).then(
+      (figure) => {
+        if (wanted === this.wanted) this.setFigure(figure);
+        else figure.dispose();
+      },
+      (error: unknown) => {
+        if (wanted !== this.wanted) return;
+        this.wanted = '';
+        this.setFigure(null);
+        setText(this.note, `The robot's model did not load. ${linesOf(error).join(' ')}`);
+      },
+    );
+  }
+
+  private setFigure(figure: Figure | null): void {
+    if (this.figure !== null) {
+      this.scene.remove(this.figure.object);
+      this.figure.dispose();
+    }
+    this.figure = figure;
+    if (figure !== null) {
+      this.scene.add(figure.object);
+      figure.setTheme(this.theme);
+      setText(this.note, '');
+    }
+    this.dirty = true;
+  }
+
+  private followRobot(dt: number): boolean {
+    const [x, y] = this.store.values('com');
+    if (x === undefined || y === undefined || !this.follow) return false;
+    const { target } = this.controls;
+    const dx = (this.settled ? lag(target.x, x, dt, followTau) : x) - target.x;
+    const dy = (this.settled ? lag(target.y, y, dt, followTau) : y) - target.y;
+    this.settled = true;
+    if (Math.hypot(dx, dy) < 1e-5) return false;
+    target.x += dx;
+    target.y += dy;
+    this.camera.position.x += dx;
+    this.camera.position.y += dy;
+    this.controls.update();
+    this.sun.position.set(target.x - 2, target.y - 3.2, 4.6);
+    this.sun.target.position.set(target.x, target.y, 0);
+    // The floor goes along in whole squares, so that it seems to lie still.
+    const square = (v: number): number => Math.round(v / 0.25) * 0.25;
+    this.floor.position.set(square(target.x), square(target.y), 0);
+    this.grid?.position.copy(this.floor.position);
+    return true;
+  }
+
+  private updateArrow(): void {
+    const [fx = 0, fy = 0, fz = 0] = this.store.values('push_force');
+    const [px = 0, py = 0, pz = 0] = this.store.values('push_point');
+    const force = new THREE.Vector3(fx, fy, fz);
+    const size = force.length();
+    this.arrow.visible = size > 0;
+    this.pushLabel.hidden = size === 0;
+    this.pushState = null;
+    if (size === 0) return;
+    const unit = this.store.robot?.comHeightM ?? 1;
+    const weight = (this.store.robot?.massKg ?? 30) * 9.81;
+    // As long as the CoM is high when the force is the robot's weight.
+    const length = unit * Math.min(1.2, Math.max(0.25, size / weight));
+    const direction = force.divideScalar(size);
+    const tip = new THREE.Vector3(px, py, pz);
+    const tail = tip.clone().addScaledVector(direction, -length);
+    this.arrow.position.copy(tail);
+    this.arrow.setDirection(direction);
+    this.arrow.setLength(length, 0.12 * unit, 0.07 * unit);
+    const { clientWidth, clientHeight } = this.canvas;
+    const at = tail.clone().project(this.camera);
+    const left = ((at.x + 1) / 2) * clientWidth;
+    const top = ((1 - at.y) / 2) * clientHeight;
+    setText(this.pushLabel, `${size.toFixed(0)} N`);
+    this.pushLabel.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
+    this.pushState = { tip: tip.toArray(), force_n: [fx, fy, fz], length_m: length };
+  }
+
+  private fit(): void {
+    const { clientWidth, clientHeight } = this.canvas;
+    if (clientWidth === 0 || clientHeight === 0) return;
+    const ratio = Math.min(2, window.devicePixelRatio || 1);
+    const size = this.renderer.getSize(new THREE.Vector2());
+    if (
+      size.x === clientWidth &&
+      size.y === clientHeight &&
+      this.renderer.getPixelRatio() === ratio
+    ) {
+      return;
+    }
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(clientWidth, clientHeight, false);
+    this.camera.aspect = clientWidth / clientHeight;
+    this.camera.updateProjectionMatrix();
+  }
+}
