@@ -1,5 +1,7 @@
 #include "engine/walking_engine.h"
 
+#include <numbers>
+
 #include "engine/footstep_planner.h"
 
 namespace stagger::engine {
@@ -249,7 +251,8 @@ void WalkingEngine::publish(const LqgReference& reference) {
   }
   const FootTarget& left = t.feet[index(Side::left)];
   const FootTarget& right = t.feet[index(Side::right)];
-  t.heading = left.yaw + 0.5 * (right.yaw - left.yaw);
+  // Measured yaw angles wrap at pi: only their difference has a meaning.
+  t.heading = left.yaw + 0.5 * std::remainder(right.yaw - left.yaw, 2.0 * std::numbers::pi);
   t.heading_velocity = 0.5 * (left.yaw_velocity + right.yaw_velocity);
   t.planned_step = planned_;
   t.adjusted_step = step_count_ > 0 ? steps_[0] : landed_;

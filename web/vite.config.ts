@@ -1,5 +1,7 @@
 import { defineConfig } from 'vitest/config';
 
+const server = 'http://127.0.0.1:8080';
+
 export default defineConfig({
   build: {
     outDir: 'dist',
@@ -13,8 +15,8 @@ export default defineConfig({
   },
   server: {
     proxy: {
-      '/api': { target: 'http://127.0.0.1:8080', ws: true, changeOrigin: true },
-      '/health': 'http://127.0.0.1:8080',
+      // The server answers its own pages only: the proxy speaks as one of them.
+      '/api': { target: server, ws: true, changeOrigin: true, headers: { origin: server } },
     },
   },
   test: {

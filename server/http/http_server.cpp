@@ -25,7 +25,7 @@ constexpr std::size_t request_threads = 64;
 constexpr std::size_t max_waiting_connections = 256;
 constexpr int requests_per_connection = 1000;
 // Longer would hold a thread for a client that has nothing to say.
-constexpr std::chrono::milliseconds keep_alive_patience{1000};
+constexpr std::chrono::seconds keep_alive_patience{1};
 
 /// The library's view of a connection.
 class LibraryStream final : public httplib::Stream {
@@ -185,6 +185,8 @@ class HttpServer::Impl {
     server_.new_task_queue = [threads = request_threads + options_.stream_clients] {
       return new httplib::ThreadPool(threads, 0, max_waiting_connections);
     };
+    server_.set_keep_alive_timeout(keep_alive_patience.count());
+    server_.set_keep_alive_max_count(requests_per_connection);
     server_.set_tcp_nodelay(true);
     server_.set_payload_max_length(max_body);
     server_.set_websocket_ping_interval(0);  // the writer pings: one thread less for each client
@@ -192,8 +194,10 @@ class HttpServer::Impl {
     server_.set_socket_options([](socket_t socket) {
       httplib::set_socket_opt(socket, SOL_SOCKET, SO_REUSEADDR, 1);
     });
-    server_.set_expect_100_continue_handler([](const auto& request, auto&) {
-      return request.get_header_value_u64("Content-Length") > max_body ? 413 : 100;
+    // Asked before the body is sent: no need to take it in first.
+    server_.set_expect_100_continue_handler([](const auto& request, auto& response) {
+      if (request.get_header_value_u64("Content-Length") <= max_body) return 100;
+      return response.status = 413;
     });
   }
 

@@ -35,6 +35,10 @@ constexpr double collision_margin = 0.001;  // [m]
 // island, and so ignores them, when it has none. These collide with nothing.
 constexpr double stand_in_radius = 0.01;  // [m]
 
+// Bullet cuts velocities here, and with them momentum: its 100 is what a light foot reaches when it
+// is hit.
+constexpr double max_coordinate_velocity = 1000.0;  // [m/s] and [rad/s]
+
 constexpr int ground_group = 1;
 constexpr int robot_group = 2;
 constexpr int stand_in_group = 4;
@@ -99,7 +103,7 @@ struct BulletWorld::Impl {
   void make_world();
   void make_ground();
   void make_robot();
-  void make_collider(int body);
+  void make_collider(int body, const Eigen::Isometry3d& pose);
   void make_joint_limits();
   void place(const RobotState& start);
   void apply_torque(const Eigen::VectorXd& torque);
@@ -111,11 +115,8 @@ struct BulletWorld::Impl {
     shapes.push_back(std::move(shape));
     return shapes.back().get();
   }
-  // World pose of Bullet's frame of a body, now.
-  btTransform frame_now(int body) const {
-    return body == 0 ? robot->getBaseWorldTransform()
-                     : robot->getLink(body - 1).m_cachedWorldTransform;
-  }
+  // World pose of Bullet's frame of a body, now. The link's own cached transform is one step old.
+  const btTransform& frame_now(int body) const { return colliders[body]->getWorldTransform(); }
   Vec3 world_point(const LinkPlace& place, const Vec3& in_link) const {
     const Vec3 in_frame = frames[place.body].pose.inverse() * (place.pose * in_link);
     return to_eigen(frame_now(place.body) * to_bullet(in_frame));
@@ -186,10 +187,11 @@ void BulletWorld::Impl::make_robot() {
   robot->setLinearDamping(0.0);
   robot->setAngularDamping(0.0);
   robot->setCanSleep(false);
+  robot->setMaxCoordinateVelocity(max_coordinate_velocity);
   robot->setHasSelfCollision(false);
 }
 
-void BulletWorld::Impl::make_collider(int body) {
+void BulletWorld::Impl::make_collider(int body, const Eigen::Isometry3d& pose) {
   auto collider = std::make_unique<btMultiBodyLinkCollider>(robot.get(), body - 1);
   const std::vector<Shape>& pieces = model.bodies[body].shapes;
   const Eigen::Isometry3d to_frame = frames[body].pose.inverse();
@@ -206,7 +208,7 @@ void BulletWorld::Impl::make_collider(int body) {
     collider->setCollisionShape(keep(std::move(compound)));
   }
   collider->setFriction(parameters.friction);
-  collider->setWorldTransform(frame_now(body));
+  collider->setWorldTransform(to_bullet(pose * frames[body].pose));
   if (body == 0) {
     robot->setBaseCollider(collider.get());
   } else {
@@ -242,9 +244,6 @@ void BulletWorld::Impl::place(const RobotState& start) {
     robot->setJointPos(i, start.q[i]);
     robot->setJointVel(i, start.qd[i]);
   }
-  btAlignedObjectArray<btQuaternion> rotations;
-  btAlignedObjectArray<btVector3> origins;
-  robot->forwardKinematics(rotations, origins);
 }
 
 void BulletWorld::Impl::apply_torque(const Eigen::VectorXd& torque) {
@@ -320,7 +319,8 @@ BulletWorld::BulletWorld(const RobotModel& model, const RobotState& start,
   impl_->make_ground();
   impl_->make_robot();
   impl_->place(start);
-  for (int i = 0; i <= joints; ++i) impl_->make_collider(i);
+  const auto poses = body_poses(model, start);
+  for (int i = 0; i <= joints; ++i) impl_->make_collider(i, poses[i]);
   impl_->world->addMultiBody(impl_->robot.get());
   impl_->make_joint_limits();
 }

@@ -106,7 +106,7 @@ void RigidBody::fill_mass_matrix() {
   cross << 0.0, -m.z(), m.y(), m.z(), 0.0, -m.x(), -m.y(), m.x(), 0.0;
   mass_matrix_.block<3, 3>(3, 0) = cross;
   mass_matrix_.block<3, 3>(0, 3) = cross.transpose();
-  mass_matrix_.block<3, 3>(3, 3) = base.subtree_inertia;
+  mass_matrix_.block<3, 3>(3, 3) = base.subtree_inertia.selfadjointView<Eigen::Upper>();
   for (std::size_t i = 1; i < links_.size(); ++i) {
     const Link& link = links_[i];
     const auto column = static_cast<Eigen::Index>(i) + 5;

@@ -74,6 +74,8 @@ export interface SimulationState {
   readonly realTimeFactor: number;
   readonly lateTicks: number;
   readonly droppedMessages: number;
+  /** Why the simulation broke down; empty while it is sound. */
+  readonly error: string;
   readonly stateHash: string;
   readonly version: string;
 }
@@ -140,6 +142,7 @@ export function parseSimulation(value: unknown): SimulationState {
     realTimeFactor: asNumber(body['real_time_factor'], Number.NaN),
     lateTicks: asNumber(body['late_ticks']),
     droppedMessages: asNumber(stream['dropped_messages']),
+    error: asString(body['error']),
     stateHash: asString(body['state_hash']),
     version: asString(body['version']),
   };

@@ -40,6 +40,7 @@ export class SimulationPanel {
   private readonly strategies = byId('strategies', HTMLElement);
   private readonly transportError = byId('transport-error', HTMLElement);
   private readonly error = byId('simulation-error', HTMLElement);
+  private readonly breakdown = byId('breakdown', HTMLElement);
   private readonly facts = new Facts(byId('facts', HTMLElement), [
     ['Tick'],
     ['Steps'],
@@ -158,6 +159,10 @@ export class SimulationPanel {
   private show(): void {
     const { simulation } = this.store;
     if (simulation === null) return;
+    setText(
+      this.breakdown,
+      simulation.error === '' ? '' : `The simulation broke down; reset it. ${simulation.error}`,
+    );
     this.facts.set('Tick', `${simulation.tick}`);
     this.facts.set('Steps', `${simulation.stepCount}`);
     this.facts.set('Late ticks', `${simulation.lateTicks}`);

@@ -9,6 +9,7 @@ import type { Store } from '../store';
 import type { Theme } from '../theme';
 import { loadRobotFigure, makePendulum } from './figure';
 import type { Figure } from './figure';
+import { Ground } from './ground';
 import { GroundMarks } from './ground_marks';
 import { lag } from './transform';
 
@@ -29,8 +30,7 @@ export class SceneView {
   private readonly controls: OrbitControls;
   private readonly sun = new THREE.DirectionalLight(0xffffff, 2.6);
   private readonly sky = new THREE.HemisphereLight(0xf4f7fb, 0x7d848c, 1.25);
-  private readonly floor: THREE.Mesh<THREE.PlaneGeometry, THREE.ShadowMaterial>;
-  private grid: THREE.GridHelper | null = null;
+  private readonly ground: Ground;
   private readonly marks: GroundMarks;
   private readonly arrow: THREE.ArrowHelper;
   private readonly pushLabel = byId('push-label', HTMLElement);
@@ -66,17 +66,12 @@ export class SceneView {
     this.sun.shadow.mapSize.set(1024, 1024);
     this.sun.shadow.radius = 4;
     this.sun.shadow.bias = -0.0006;
-    this.floor = new THREE.Mesh(
-      new THREE.PlaneGeometry(60, 60),
-      // Drawn before the grid and never in front of it.
-      new THREE.ShadowMaterial({ opacity: 0.2, depthWrite: false }),
-    );
-    this.floor.receiveShadow = true;
-    this.floor.renderOrder = -1;
+    this.ground = new Ground(theme, this.renderer.capabilities.getMaxAnisotropy());
     this.marks = new GroundMarks(theme);
     this.arrow = new THREE.ArrowHelper(new THREE.Vector3(1, 0, 0));
     this.arrow.visible = false;
-    this.scene.add(this.sky, this.sun, this.sun.target, this.floor, this.marks.object, this.arrow);
+    this.scene.add(this.sky, this.sun, this.sun.target, this.ground.object);
+    this.scene.add(this.marks.object, this.arrow);
     this.setTheme(theme);
     this.preset('behind');
 
@@ -92,18 +87,8 @@ export class SceneView {
   setTheme(theme: Theme): void {
     this.theme = theme;
     this.scene.background = new THREE.Color(theme.ground);
-    this.scene.fog = new THREE.Fog(theme.ground, 4, 13);
-    if (this.grid !== null) {
-      this.scene.remove(this.grid);
-      this.grid.geometry.dispose();
-    }
-    // Squares of 0.25 m.
-    this.grid = new THREE.GridHelper(40, 160, theme.muted, theme.muted);
-    this.grid.rotation.x = Math.PI / 2;
-    const material = this.grid.material as THREE.Material;
-    material.transparent = true;
-    material.opacity = 0.26;
-    this.scene.add(this.grid);
+    this.scene.fog = new THREE.Fog(theme.ground, 5, 15);
+    this.ground.setTheme(theme);
     this.marks.setTheme(theme);
     this.figure?.setTheme(theme);
     this.arrow.setColor(theme.ink);
@@ -224,10 +209,7 @@ export class SceneView {
     this.controls.update();
     this.sun.position.set(target.x - 2, target.y - 3.2, 4.6);
     this.sun.target.position.set(target.x, target.y, 0);
-    // The floor goes along in whole squares, so that it seems to lie still.
-    const square = (v: number): number => Math.round(v / 0.25) * 0.25;
-    this.floor.position.set(square(target.x), square(target.y), 0);
-    this.grid?.position.copy(this.floor.position);
+    this.ground.follow(target.x, target.y);
     return true;
   }
 
