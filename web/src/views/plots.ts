@@ -121,6 +121,7 @@ export class Plots {
   private drawnEvents = 0;
   private dirty = true;
   private points = 0;
+  private drawnTick: number | null = null;
 
   constructor(
     root: HTMLElement,
@@ -177,6 +178,7 @@ export class Plots {
     const from = store.series.lowerBound('t', this.window[0]);
     const t = store.series.view('t', from);
     this.points = t.length;
+    this.drawnTick = store.frame?.tick ?? null;
     for (const plot of this.plots) {
       const names = this.columns(plot.spec);
       plot.uplot.setData([t, ...names.map((name) => store.series.view(name, from))]);
@@ -194,6 +196,7 @@ export class Plots {
       });
     }
     return {
+      drawn_tick: this.drawnTick,
       points: this.points,
       window: [...this.window],
       capacity: this.store.series.capacity,
