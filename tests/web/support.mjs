@@ -143,7 +143,7 @@ export class Dashboard {
       );
     });
     await page.goto(url);
-    await dashboard.until((s) => s.condition === 'live' && s.scene?.figure, 'a live page');
+    await dashboard.until((s) => s.condition === 'live' && s.scene?.figure && s.tick !== null, 'a live page');
     return dashboard;
   }
 

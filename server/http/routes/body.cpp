@@ -19,11 +19,14 @@ bool is_json(std::string type) {
 }
 
 nlohmann::json parse_body(const HttpRequest& request, bool may_be_empty) {
-  if (request.body.empty() && may_be_empty) return nlohmann::json::object();
+  if (request.body.empty()) {
+    if (may_be_empty) return nlohmann::json::object();
+    throw Problem(400, "the body is empty; send a JSON object");
+  }
   const std::string type = request.header("content-type");
   if (!is_json(type)) {
     throw Problem(415, "the body is " + (type.empty() ? "of no stated type" : type) +
-                           "; send application/json");
+                           "; send it as application/json");
   }
   try {
     return sim::parse_json(request.body);

@@ -11,6 +11,7 @@ import { loadRobotFigure, makePendulum } from './figure';
 import type { Figure } from './figure';
 import { Ground } from './ground';
 import { GroundMarks } from './ground_marks';
+import { PushArrow } from './push_arrow';
 import { lag } from './transform';
 
 export type Preset = 'behind' | 'side' | 'front';
@@ -32,8 +33,7 @@ export class SceneView {
   private readonly sky = new THREE.HemisphereLight(0xf4f7fb, 0x7d848c, 1.25);
   private readonly ground: Ground;
   private readonly marks: GroundMarks;
-  private readonly arrow: THREE.ArrowHelper;
-  private readonly pushLabel = byId('push-label', HTMLElement);
+  private readonly arrow: PushArrow;
   private readonly note = byId('scene-note', HTMLElement);
   private figure: Figure | null = null;
   private wanted = '';
@@ -43,7 +43,6 @@ export class SceneView {
   private settled = false;
   private framesDrawn = 0;
   private drawnTick: number | null = null;
-  private pushState: Record<string, unknown> | null = null;
   follow = true;
 
   constructor(
@@ -68,10 +67,9 @@ export class SceneView {
     this.sun.shadow.bias = -0.0006;
     this.ground = new Ground(theme, this.renderer.capabilities.getMaxAnisotropy());
     this.marks = new GroundMarks(theme);
-    this.arrow = new THREE.ArrowHelper(new THREE.Vector3(1, 0, 0));
-    this.arrow.visible = false;
+    this.arrow = new PushArrow(theme);
     this.scene.add(this.sky, this.sun, this.sun.target, this.ground.object);
-    this.scene.add(this.marks.object, this.arrow);
+    this.scene.add(this.marks.object, this.arrow.object);
     this.setTheme(theme);
     this.preset('behind');
 
@@ -91,7 +89,7 @@ export class SceneView {
     this.ground.setTheme(theme);
     this.marks.setTheme(theme);
     this.figure?.setTheme(theme);
-    this.arrow.setColor(theme.ink);
+    this.arrow.setTheme(theme);
     this.dirty = true;
   }
 
@@ -127,7 +125,7 @@ export class SceneView {
     }
     this.marks.object.visible = this.store.frame !== null;
     if (this.figure !== null) this.figure.object.visible = this.store.frame !== null;
-    this.updateArrow();
+    this.arrow.update(this.store, this.camera, this.canvas.clientWidth, this.canvas.clientHeight);
     this.renderer.render(this.scene, this.camera);
     this.framesDrawn += 1;
     this.drawnTick = this.store.frame?.tick ?? null;
@@ -139,7 +137,7 @@ export class SceneView {
       frames_drawn: this.framesDrawn,
       figure: this.figure?.state() ?? null,
       marks: this.marks.state(),
-      push_arrow: this.pushState,
+      push_arrow: this.arrow.state(),
       camera: {
         position: this.camera.position.toArray(),
         target: this.controls.target.toArray(),
@@ -211,34 +209,6 @@ export class SceneView {
     this.sun.target.position.set(target.x, target.y, 0);
     this.ground.follow(target.x, target.y);
     return true;
-  }
-
-  private updateArrow(): void {
-    const [fx = 0, fy = 0, fz = 0] = this.store.values('push_force');
-    const [px = 0, py = 0, pz = 0] = this.store.values('push_point');
-    const force = new THREE.Vector3(fx, fy, fz);
-    const size = force.length();
-    this.arrow.visible = size > 0;
-    this.pushLabel.hidden = size === 0;
-    this.pushState = null;
-    if (size === 0) return;
-    const unit = this.store.robot?.comHeightM ?? 1;
-    const weight = (this.store.robot?.massKg ?? 30) * 9.81;
-    // As long as the CoM is high when the force is the robot's weight.
-    const length = unit * Math.min(1.2, Math.max(0.25, size / weight));
-    const direction = force.divideScalar(size);
-    const tip = new THREE.Vector3(px, py, pz);
-    const tail = tip.clone().addScaledVector(direction, -length);
-    this.arrow.position.copy(tail);
-    this.arrow.setDirection(direction);
-    this.arrow.setLength(length, 0.12 * unit, 0.07 * unit);
-    const { clientWidth, clientHeight } = this.canvas;
-    const at = tail.clone().project(this.camera);
-    const left = ((at.x + 1) / 2) * clientWidth;
-    const top = ((1 - at.y) / 2) * clientHeight;
-    setText(this.pushLabel, `${size.toFixed(0)} N`);
-    this.pushLabel.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
-    this.pushState = { tip: tip.toArray(), force_n: [fx, fy, fz], length_m: length };
   }
 
   private fit(): void {

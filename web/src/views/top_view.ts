@@ -364,8 +364,12 @@ export class TopView {
     c.fill();
     c.font = `600 12px ${this.theme.font}`;
     c.textAlign = 'center';
-    c.textBaseline = 'bottom';
-    c.fillText(`${size.toFixed(0)} N`, tail.x, tail.y - 8);
+    c.textBaseline = 'middle';
+    c.fillText(
+      `${size.toFixed(0)} N`,
+      tail.x - 22 * Math.cos(angle),
+      tail.y - 12 * Math.sin(angle),
+    );
   }
 
   private mark(

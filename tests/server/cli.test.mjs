@@ -1,0 +1,136 @@
+// The command line against the real binary.
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import { test } from 'node:test';
+import { command } from './support.mjs';
+
+const push = { impulse_ns: 5, direction_deg: 90, trigger: { phase: 'single_support', leg: 'left' } };
+const spec = { robot: 'kasaei', plant: 'lipm', settle_s: 2, observe_s: 2, push };
+const trial = (value) =>
+  command(['trial', '-'], typeof value === 'string' ? value : JSON.stringify(value));
+
+test('--version and --help', async () => {
+  const version = await command(['--version']);
+  assert.equal(version.code, 0);
+  assert.match(version.stdout, /^\d+\.\d+\.\d+\n$/);
+  const help = await command(['--help']);
+  assert.equal(help.code, 0);
+  for (const name of ['serve', 'run', 'trial', 'robots']) assert.match(help.stdout, RegExp(name));
+});
+
+test('bad options end with 2', async () => {
+  for (const args of [[], ['fly'], ['run'], ['run', '--robot', 'kasaei', '--vx', '1'],
+    ['run', '--robot', 'kasaei', '--vx', 'nan'], ['run', '--robot', 'nobody'],
+    ['run', '--robot', 'kasaei', '--seconds', '-1'], ['serve', '--port', '70000'],
+    ['serve', '--robot', 'nobody'], ['serve', '--plant', 'mujoco'], ['trial', '/no/such/file']]) {
+    const { code, stderr } = await command(args);
+    assert.equal(code, 2, args.join(' '));
+    assert.notEqual(stderr, '', args.join(' '));
+  }
+});
+
+test('run tells how the walk went', async () => {
+  const { code, stdout } = await command(
+    ['run', '--robot', 'kasaei', '--plant', 'lipm', '--seconds', '5', '--vx', '0.1', '--json']);
+  assert.equal(code, 0);
+  const result = JSON.parse(stdout);
+  for (const key of ['robot', 'plant', 'seed', 'seconds', 'ticks', 'fell', 'fall_reason', 'steps',
+    'worst_dcm_error_m', 'real_time_factor', 'state_hash', 'version']) {
+    assert.ok(key in result, key);
+  }
+  assert.deepEqual([result.ticks, result.fell, result.fall_reason], [5000, false, null]);
+  assert.ok(result.steps > 3);
+  assert.match(result.state_hash, /^[0-9a-f]{16}$/);
+});
+
+test('the same run gives the same hash, another walk another', async () => {
+  const run = async (vx) => {
+    const args = ['run', '--robot', 'kasaei', '--plant', 'lipm', '--seconds', '3', '--json'];
+    return JSON.parse((await command([...args, '--vx', vx])).stdout).state_hash;
+  };
+  assert.equal(await run('0.1'), await run('0.1'));
+  assert.notEqual(await run('0.1'), await run('0.12'));
+});
+
+test('run on the full body', async () => {
+  const { code, stdout } = await command(
+    ['run', '--robot', 'kasaei', '--plant', 'bullet', '--seconds', '1', '--json']);
+  const result = JSON.parse(stdout);
+  assert.equal(result.plant, 'bullet');
+  assert.equal(code, result.fell ? 1 : 0);
+});
+
+test('the same trial twice gives the same result to the bit', async () => {
+  const first = await trial(spec);
+  const second = await trial(spec);
+  assert.equal(first.code, 0, first.stderr);
+  assert.equal(first.stdout, second.stdout);
+  const result = JSON.parse(first.stdout);
+  for (const key of ['outcome', 'reason', 'delivered_ns', 'steps_to_recover', 'fall_time_s',
+    'push_tick', 'worst_dcm_error_m', 'ticks', 'state_hash', 'spec', 'version']) {
+    assert.ok(key in result, key);
+  }
+  assert.equal(result.outcome, 'recovered');
+  assert.ok(Math.abs(result.delivered_ns - 5) < 1e-9);
+  // The resolved specification is the same trial.
+  const again = JSON.parse((await trial(result.spec)).stdout);
+  assert.deepEqual(again, result);
+});
+
+test('a fall is a result, not a failure', async () => {
+  const { code, stdout } = await trial({ ...spec, push: { ...push, impulse_ns: 150 } });
+  const result = JSON.parse(stdout);
+  assert.equal(code, 0);
+  assert.equal(result.outcome, 'fell');
+  assert.notEqual(result.fall_time_s, null);
+});
+
+test('a trigger that never comes is a time-out', async () => {
+  const never = { ...push, trigger: { phase: 'double_support', leg: 'left', fraction: 0.999999 } };
+  const { code, stdout } = await trial({ ...spec, push: never });
+  assert.equal(JSON.parse(stdout).outcome, 'timeout');
+  assert.equal(code, 0);
+});
+
+test('a bad specification is refused with a line for each error', async () => {
+  const text = `{
+  "robot": "kasaei",
+  "plant": "mujoco",
+  "push": { "impulse_ns": -1, "link": "tail" },
+  "colour": "red"
+}`;
+  const { code, stdout, stderr } = await trial(text);
+  assert.equal(code, 2);
+  assert.equal(stdout, '');
+  const lines = stderr.trim().split('\n');
+  assert.equal(lines.length, 4, stderr);
+  for (const [line, pointer] of [[3, '/plant'], [4, '/push/impulse_ns'], [4, '/push/link'],
+    [5, '/colour']]) {
+    assert.ok(lines.some((l) => l.includes(`:${line}:`) && l.includes(pointer)), pointer);
+  }
+  for (const bad of ['', '{', '[]', '{"robot":"nobody"}', '{"robot":"kasaei","robot":"kasaei"}']) {
+    assert.equal((await trial(bad)).code, 2, bad);
+  }
+});
+
+test('a trial is read from a file too', async () => {
+  const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'stagger-'));
+  try {
+    const file = path.join(folder, 'trial.json');
+    fs.writeFileSync(file, JSON.stringify({ ...spec, push: undefined, observe_s: 0.5 }));
+    const { code, stdout } = await command(['trial', file]);
+    assert.equal(code, 0);
+    assert.equal(JSON.parse(stdout).push_tick, null);
+  } finally {
+    fs.rmSync(folder, { recursive: true });
+  }
+});
+
+test('robots are listed', async () => {
+  assert.match((await command(['robots'])).stdout, /kasaei/);
+  const { items } = JSON.parse((await command(['robots', '--json'])).stdout);
+  assert.ok(items.some((robot) => robot.name === 'kasaei' && robot.joints.length === 12));
+  assert.equal((await command(['robots', '--robots-dir', '/no/such/folder'])).stdout, '');
+});
