@@ -5,7 +5,8 @@
 import assert from 'node:assert/strict';
 import { after, afterEach, before, beforeEach, describe, test } from 'node:test';
 import path from 'node:path';
-import { Dashboard, Server, launchBrowser, top, until } from './support.mjs';
+import { Server, eventually, root } from '../server/support.mjs';
+import { Dashboard, call, launchBrowser, newestFrame, pushes, serveOnPort } from './support.mjs';
 
 let browser;
 
@@ -38,17 +39,17 @@ describe('dashboard', () => {
   let expected;
 
   before(async () => {
-    server = await Server.start();
+    server = await Server.start('--plant', 'bullet');
   });
 
-  after(() => server?.stop());
+  after(() => server?.kill());
 
   beforeEach(async () => {
     expected = [];
-    await server.call('POST', '/simulation/reset', { plant: 'bullet' });
-    await server.call('PATCH', '/strategies', { ankle: true, step: true });
-    await server.call('POST', '/simulation/resume', {});
-    await server.call('POST', '/walk', { vx: 0, vy: 0, wz: 0 });
+    await call(server, 'POST', '/simulation/reset', { plant: 'bullet' });
+    await call(server, 'PATCH', '/strategies', { ankle: true, step: true });
+    await call(server, 'POST', '/simulation/resume', {});
+    await call(server, 'POST', '/walk', { vx: 0, vy: 0, wz: 0 });
     page = await Dashboard.open(browser, server.url);
   });
 
@@ -63,11 +64,11 @@ describe('dashboard', () => {
   });
 
   test('loads, says that it is live and whom it shows', async () => {
-    assert.equal(await page.text('#condition-text'), 'Live');
-    assert.match(await page.text('#bar-robot'), /^kasaei, full body$/);
-    await until(async () => /×$/.test(await page.text('#bar-speed')), 'the real-time factor');
-    assert.match(await page.page.title(), /^Live · stagger$/);
-    const robot = await server.call('GET', '/robots/kasaei');
+    await page.shows('#condition-text', /^Live$/);
+    await page.shows('#bar-robot', /^kasaei, full body$/);
+    await page.shows('#bar-speed', /×$/);
+    assert.equal(await page.page.title(), 'Live · stagger');
+    const robot = await call(server, 'GET', '/robots/kasaei');
     const links = await page.page.locator('#link option').allInnerTexts();
     assert.deepEqual(links, robot.links);
     assert.equal(await page.page.locator('#link').inputValue(), 'torso');
@@ -77,7 +78,7 @@ describe('dashboard', () => {
     const postures = [];
     for (let i = 0; i < 2; i += 1) {
       const state = await page.pause();
-      const frame = await server.frame();
+      const frame = await newestFrame(server);
       assert.equal(state.scene.tick, frame.tick, 'the drawn frame is the newest one');
       const { figure } = state.scene;
       assert.equal(figure.kind, 'urdf');
@@ -101,7 +102,7 @@ describe('dashboard', () => {
   test('top view, plots and table show the numbers of the stream', async () => {
     await page.until((s) => s.plots.points > 100 && s.top_view.adjusted_step, 'a second of data');
     const state = await page.pause();
-    const frame = await server.frame();
+    const frame = await newestFrame(server);
     const { top_view: view, plots } = state;
     for (const [name, mark] of Object.entries(view.marks)) {
       assert.deepEqual([mark.x, mark.y], frame.v[name].slice(0, 2), name);
@@ -135,8 +136,12 @@ describe('dashboard', () => {
     assert.ok(plots.points <= plots.capacity);
 
     const row = page.page.locator('#values tr', { hasText: 'DCM' });
-    const shown = (value) => value.toFixed(3).replace(/^-0\.000$/, '0.000').replace('-', '−');
-    await until(
+    const shown = (value) =>
+      value
+        .toFixed(3)
+        .replace(/^-0\.000$/, '0.000')
+        .replace('-', '−');
+    await eventually(
       async () =>
         (await row.innerText()).split(/\s+/).slice(1).join() ===
         [...frame.v.dcm, ...frame.v.dcm_reference].map(shown).join(),
@@ -151,11 +156,11 @@ describe('dashboard', () => {
     await page.pause();
     await page.fill('#impulse', 6.5);
     await page.fill('#duration', 0.05);
-    assert.match(await page.text('#push-equals'), /^130 N peak\s+·\s+Δv 0\.22 m\/s$/);
+    await page.shows('#push-equals', /^130 N peak\s+·\s+Δv 0\.22 m\/s$/);
     await page.click('.pad-forward');
-    const [push] = await until(async () => {
-      const pushes = await server.pushes();
-      return pushes.length === 1 && pushes;
+    const [push] = await eventually(async () => {
+      const asked = await pushes(server);
+      return asked.length === 1 && asked;
     }, 'the push on the server');
     assert.equal(push.spec.impulse_ns, 6.5);
     assert.equal(push.spec.duration_s, 0.05);
@@ -165,25 +170,22 @@ describe('dashboard', () => {
     await page.until((s) => s.pushes.listed[0]?.state === 'scheduled', 'the push on the list');
 
     // All at once, so that nothing but the push has had time to move the DCM.
-    const before = await server.frame();
+    const before = await newestFrame(server);
     const during = await page.step(25);
     assert.equal(during.top_view.push_arrow, true);
     assert.ok(Math.hypot(...during.scene.push_arrow.force_n) > 100, 'the arrow shows the force');
-    assert.match(await page.text('#push-label'), /^130 N$/);
+    await page.shows('#push-label', /^130 N$/);
     const state = await page.step(35);
     const shift = state.top_view.marks.dcm.x - before.v.dcm[0];
     assert.ok(shift > 0.03, `the DCM went forward by ${shift} m`);
     assert.equal(state.scene.push_arrow, null, 'no arrow without a force');
     assert.ok(state.plots.markers > 0, 'the plots mark the push');
 
-    const done = await server.call('GET', `/pushes/${push.id}`);
+    const done = await call(server, 'GET', `/pushes/${push.id}`);
     assert.equal(done.state, 'done');
     assert.ok(Math.abs(Math.hypot(...done.delivered_ns) - 6.5) < 1e-6);
-    await until(
-      async () => /6\.5 N s forward\s+done\s+6\.50 N s/.test(await page.text('#pushes')),
-      'the delivered impulse on the list',
-    );
-    await until(async () => /push 1/.test(await page.text('#events')), 'the push in the event log');
+    await page.shows('#pushes', /6\.5 N s forward\s+done\s+6\.50 N s/);
+    await page.shows('#events', /push 1/);
   });
 
   test('an arrow key pushes, but not while typing', async () => {
@@ -193,19 +195,19 @@ describe('dashboard', () => {
     assert.equal(await page.page.inputValue('#impulse'), '5', 'the arrow changed the number');
     await page.page.locator('#impulse').blur();
     await page.page.keyboard.press('ArrowLeft');
-    const first = await until(async () => (await server.pushes())[0], 'a push by arrow key');
+    const first = await eventually(async () => (await pushes(server))[0], 'a push by arrow key');
     assert.deepEqual(first.spec.direction, [0, 1, 0]);
     assert.equal(first.spec.impulse_ns, 5);
     await page.page.uncheck('#arrow-keys');
     await page.page.keyboard.press('ArrowDown');
     await page.page.check('#arrow-keys');
     await page.page.keyboard.press('ArrowRight');
-    const pushes = await until(async () => {
-      const now = await server.pushes();
+    const asked = await eventually(async () => {
+      const now = await pushes(server);
       return now.length > 1 && now;
     }, 'a second push');
     assert.deepEqual(
-      pushes.map((push) => push.spec.direction),
+      asked.map((push) => push.spec.direction),
       [
         [0, -1, 0],
         [0, 1, 0],
@@ -222,48 +224,42 @@ describe('dashboard', () => {
     await page.page.selectOption('#profile', 'half_sine');
     await page.fill('#angle', 30);
     await page.click('#push-angle');
-    const push = await until(async () => (await server.pushes())[0], 'the push on the server');
+    const push = await eventually(async () => (await pushes(server))[0], 'the push on the server');
     assert.deepEqual(push.spec.trigger, { phase: 'single_support', leg: 'left', fraction: 0.25 });
     assert.equal(push.spec.profile, 'half_sine');
     assertNear(push.spec.direction, [Math.cos(Math.PI / 6), 0.5, 0], 1e-12, 'direction');
     await page.click('#pushes button');
-    await until(
-      async () => (await server.pushes())[0].state === 'cancelled',
+    await eventually(
+      async () => (await pushes(server))[0].state === 'cancelled',
       'the push to be cancelled',
     );
-    await until(async () => /cancelled/.test(await page.text('#pushes')), 'cancelled on the list');
+    await page.shows('#pushes', /cancelled/);
   });
 
   test('says what is wrong with a push that is out of range', async () => {
     expected = [/status of 422/];
     await page.fill('#impulse', 999);
     await page.click('.pad-backward');
-    await until(
-      async () => /impulse_ns.*999.*200 N s/s.test(await page.text('#push-error')),
-      'the error beside the pad',
-    );
-    assert.deepEqual(await server.pushes(), []);
+    await page.shows('#push-error', /impulse_ns.*999.*200 N s/s);
+    assert.deepEqual(await pushes(server), []);
     await page.fill('#impulse', '');
     await page.click('.pad-backward');
-    await until(
-      async () => /impulse is not a number/.test(await page.text('#push-error')),
-      'the words for an empty field',
-    );
+    await page.shows('#push-error', /impulse is not a number/);
     await page.fill('#impulse', 1);
     await page.click('.pad-backward');
-    await until(async () => (await page.text('#push-error')) === '', 'the error to go');
-    assert.equal((await server.pushes()).length, 1);
+    await page.shows('#push-error', /^$/);
+    assert.equal((await pushes(server)).length, 1);
   });
 
   test('pauses, steps, resumes and resets', async () => {
     const paused = await page.pause();
-    assert.equal((await server.simulation()).running, false);
-    assert.equal(await page.text('#condition-text'), 'Paused');
+    assert.equal((await server.state()).running, false);
+    await page.shows('#condition-text', /^Paused$/);
     const stepped = await page.step(37);
     assert.equal(stepped.tick, paused.tick + 37);
-    assert.equal((await server.frame()).tick, stepped.tick);
+    assert.equal((await newestFrame(server)).tick, stepped.tick);
     await page.resume();
-    assert.equal((await server.simulation()).running, true);
+    assert.equal((await server.state()).running, true);
     await page.until((s) => s.tick > stepped.tick, 'time to go on');
 
     const { session_id: session } = await page.state();
@@ -272,29 +268,29 @@ describe('dashboard', () => {
       (s) => s.session_id !== session && s.tick !== null,
       'a new session',
     );
-    assert.equal(reset.session_id, (await server.simulation()).session_id);
+    assert.equal(reset.session_id, (await server.state()).session_id);
     assert.ok(reset.t < stepped.t, 'time starts anew');
     assert.ok(reset.plots.window[0] === 0, 'the plots are cleared');
   });
 
   test('walks, stops and switches strategies', async () => {
     await page.click('#walk-stop');
-    await until(async () => !(await server.simulation()).walking, 'the robot to stand');
+    await eventually(async () => !(await server.state()).walking, 'the robot to stand');
     await page.click('#walk-in-place');
-    await until(async () => (await server.simulation()).walking, 'the robot to walk');
+    await eventually(async () => (await server.state()).walking, 'the robot to walk');
     await page.fill('#vx', 0.1);
     await page.click('#walk-form button');
     const { top_view: start } = await page.state();
     await page.until((s) => s.top_view.centre.x > start.centre.x + 0.1, '10 cm of way');
 
     await page.page.uncheck('#strategy-step');
-    await until(
-      async () => (await server.simulation()).strategies.step === false,
+    await eventually(
+      async () => (await server.state()).strategies.step === false,
       'the step strategy to be off',
     );
     await page.page.check('#strategy-step');
-    await until(
-      async () => (await server.simulation()).strategies.step === true,
+    await eventually(
+      async () => (await server.state()).strategies.step === true,
       'the step strategy to be on',
     );
   });
@@ -306,7 +302,7 @@ describe('dashboard', () => {
     await page.click('#walk-in-place');
     await page.until((s) => s.top_view.adjusted_step, 'the pendulum to step');
     const { scene } = await page.pause();
-    const frame = await server.frame();
+    const frame = await newestFrame(server);
     assert.equal(scene.tick, frame.tick);
     assertNear(scene.figure.com, frame.v.com, 1e-12, 'CoM');
     assertNear(scene.figure.leg_foot.slice(0, 2), frame.v.zmp, 1e-12, 'foot of the leg');
@@ -321,17 +317,17 @@ describe('dashboard', () => {
     await page.fill('#impulse', 120);
     await page.click('.pad-left');
     await page.until((s) => s.condition === 'fallen', 'the fall');
-    const { fall_reason: reason } = await server.simulation();
-    await until(
+    const { fall_reason: reason } = await server.state();
+    await eventually(
       async () => (await page.text('#fall-banner')).includes(reason) && reason !== '',
       'the reason of the fall',
     );
     await page.click('#fall-reset');
     await page.until((s) => s.condition === 'live', 'a live page after the reset');
-    await until(() => page.page.locator('#fall-banner').isHidden(), 'the banner to go');
+    await eventually(() => page.page.locator('#fall-banner').isHidden(), 'the banner to go');
   });
 
-  test('can be used on a phone, and every control has a name', async () => {
+  test('can be used on a phone; every control has a name', async () => {
     await page.page.setViewportSize({ width: 360, height: 740 });
     assert.equal(
       await page.page.evaluate(() => document.documentElement.scrollWidth),
@@ -340,13 +336,14 @@ describe('dashboard', () => {
     );
     await page.fill('#impulse', 3);
     await page.click('.pad-right');
-    await until(async () => (await server.pushes()).length === 1, 'a push on the phone');
+    await eventually(async () => (await pushes(server)).length === 1, 'a push on the phone');
     const nameless = await page.page.evaluate(() =>
-      [...document.querySelectorAll('button, input, select, canvas')]
+      [...document.querySelectorAll('button, input, select, [role=img], canvas')]
+        .filter((control) => control.parentElement.closest('[role=img]') === null)
         .filter((control) => {
           const name =
             control.getAttribute('aria-label') ??
-            (control.labels?.length ? control.labels[0].innerText : control.textContent);
+            (control.labels?.length ? control.labels[0].textContent : control.textContent);
           return name.trim() === '';
         })
         .map((control) => control.outerHTML),
@@ -366,53 +363,54 @@ describe('dashboard', () => {
     await page.until((s) => s.pushes.listed.length === 2, 'the push');
     const state = await page.step(360);
     assert.ok(state.scene.push_arrow !== null, 'the arrow is in the picture');
-    await until(async () => /active/.test(await page.text('#pushes')), 'the push at work');
+    const { delivered_ns: delivered } = (await pushes(server))[0];
+    const sum = `active\\s+${Math.hypot(...delivered).toFixed(2)} N s`;
+    await page.shows('#pushes', new RegExp(sum));
     const picture = process.env.STAGGER_SCREENSHOT === '1';
     const png = await page.page.screenshot({
-      ...(picture ? { path: path.join(top, 'docs/dashboard.png') } : {}),
+      ...(picture ? { path: path.join(root, 'docs/dashboard.png') } : {}),
     });
     assert.ok(png.length > 30000, `a picture of ${png.length} bytes`);
   });
 });
 
 describe('connection', () => {
-  test('is told to be lost when the server is killed, and comes back by itself', async () => {
-    let server = await Server.start({ plant: 'lipm' });
-    const page = await Dashboard.open(browser, server.url);
-    try {
-      const { session_id: session } = await page.state();
-      await server.stop('SIGKILL');
-      await page.until((s) => s.condition === 'lost' || s.condition === 'connecting', 'the loss');
-      await until(
-        async () => /^Lost: .*Reconnecting in \d+ s$/.test(await page.text('#condition-text')),
-        'the words for a lost connection',
-      );
-      await until(() => page.page.locator('#stale').isVisible(), 'the words for an old picture');
-      assert.equal(await page.page.locator('#pause').isDisabled(), true);
-      server = await Server.start({ plant: 'lipm', port: server.port });
-      const state = await page.until((s) => s.condition === 'live' && s.tick > 0, 'a live page');
-      assert.notEqual(state.session_id, session);
-      assert.equal(state.session_id, (await server.simulation()).session_id);
-      await until(async () => (await page.text('#condition-text')) === 'Live', 'the word Live');
-      assert.deepEqual(await page.violations(), []);
-    } finally {
-      await page.close();
-      await server.stop();
-    }
+  let server;
+  let page;
+  let endSecond;
+
+  beforeEach(async () => {
+    endSecond = async () => {};
+    server = await Server.start('--plant', 'lipm');
+    page = await Dashboard.open(browser, server.url);
   });
 
-  test('tells that the server stopped in good order', async () => {
-    const server = await Server.start({ plant: 'lipm' });
-    const page = await Dashboard.open(browser, server.url);
-    try {
-      await server.stop();
-      await until(
-        async () => /^Lost: /.test(await page.text('#condition-text')),
-        'the words for a lost connection',
-      );
-    } finally {
-      await page.close();
-      await server.stop();
-    }
+  afterEach(async () => {
+    await page?.close();
+    await server?.kill();
+    await endSecond();
+  });
+
+  const lost = () => page.shows('#condition-text', /^Lost: .*Reconnecting in \d+ s$/);
+
+  test('is told to be lost when the server is killed, and comes back by itself', async () => {
+    const { session_id: session } = await page.state();
+    await server.kill();
+    await lost();
+    await eventually(() => page.page.locator('#stale').isVisible(), 'the words for an old picture');
+    assert.equal(await page.page.locator('#pause').isDisabled(), true);
+
+    endSecond = await serveOnPort(server.port);
+    const state = await page.until((s) => s.condition === 'live' && s.tick > 0, 'a live page');
+    assert.notEqual(state.session_id, session);
+    assert.equal(state.session_id, (await server.state()).session_id);
+    await page.shows('#condition-text', /^Live$/);
+    await page.until((s) => s.tick > state.tick, 'frames of the new server');
+    assert.deepEqual(await page.violations(), []);
+  });
+
+  test('is told to be lost when the server stops in good order', async () => {
+    await server.stop();
+    await lost();
   });
 });

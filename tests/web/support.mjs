@@ -1,115 +1,47 @@
-// What the browser tests share: the real server, a real browser, and looking until something is so.
+// What the browser tests share beyond tests/server/support.mjs: the page and the server's side.
+import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { once } from 'node:events';
-import { fileURLToPath } from 'node:url';
-import path from 'node:path';
 import { chromium } from 'playwright-core';
-import WebSocket from 'ws';
+import { binary, eventually, root, within } from '../server/support.mjs';
 
-export const top = path.resolve(path.dirname(fileURLToPath(import.meta.url)), '../..');
-const binary = path.resolve(top, process.env.STAGGER_BIN ?? 'build/bin/stagger');
 const browser = process.env.CHROMIUM ?? '/usr/bin/chromium';
 
-/** Looks until `probe` answers something true, and returns it; else fails with `what`. */
-export async function until(probe, what, patienceMs = 30000) {
-  const end = Date.now() + patienceMs;
-  let last;
-  for (;;) {
-    try {
-      last = await probe();
-      if (last) return last;
-    } catch (error) {
-      last = error;
-    }
-    if (Date.now() > end) {
-      throw new Error(`waited ${patienceMs / 1000} s in vain for: ${what}`, {
-        cause: last instanceof Error ? last : undefined,
-      });
-    }
-    await new Promise((resolve) => setTimeout(resolve, 25));
+/** One request that must work; the JSON of its answer. */
+export async function call(server, method, route, body) {
+  const answer = await server.request(method, `/api/v1${route}`, { body });
+  assert.ok(answer.status < 300, `${method} ${route}: ${answer.status} ${answer.text}`);
+  return answer.json;
+}
+
+export async function pushes(server) {
+  return (await call(server, 'GET', '/pushes')).items;
+}
+
+/** The newest frame as a client of our own is told it, with the hello; for a paused simulation. */
+export async function newestFrame(server) {
+  const stream = await server.stream();
+  try {
+    await stream.subscribe({ rate_hz: 1000 });
+    const hello = await stream.first(({ op }) => op === 'hello', 'hello');
+    return { hello, ...(await stream.first(({ op }) => op === 'data', 'a frame')) };
+  } finally {
+    await stream.close();
   }
 }
 
-/** A `stagger serve` of its own. */
-export class Server {
-  static async start({ port = 0, plant = 'bullet' } = {}) {
-    const child = spawn(binary, ['serve', '--port', String(port), '--plant', plant], {
-      cwd: top,
-      stdio: ['ignore', 'pipe', 'pipe'],
-    });
-    const output = { text: '' };
-    child.stdout.on('data', (chunk) => (output.text += chunk));
-    child.stderr.on('data', (chunk) => (output.text += chunk));
-    const failed = new Promise((_, reject) => {
-      child.once('error', reject);
-      child.once('exit', (code) => reject(new Error(`stagger ended with ${code}: ${output.text}`)));
-    });
-    failed.catch(() => {});
-    const said = until(
-      () => /stagger is serving on (http:\/\/[^\s]+)/.exec(output.text)?.[1],
-      'the address that stagger serves on',
-    );
-    return new Server(child, await Promise.race([said, failed]));
-  }
-
-  constructor(child, url) {
-    this.child = child;
-    this.url = url;
-    this.port = Number(new URL(url).port);
-  }
-
-  async stop(signal = 'SIGTERM') {
-    if (this.child.exitCode !== null || this.child.signalCode !== null) return;
-    const ended = once(this.child, 'exit');
-    this.child.kill(signal);
-    const hard = setTimeout(() => this.child.kill('SIGKILL'), 15000);
+/** A server on a port that has been free a moment ago; returns what ends it. */
+export async function serveOnPort(port) {
+  const child = spawn(binary, ['serve', '--port', String(port), '--plant', 'lipm'], {
+    env: { STAGGER_ROBOTS: `${root}/robots`, ...process.env },
+    stdio: ['ignore', 'pipe', 'inherit'],
+  });
+  await within(once(child.stdout, 'data'), `the server on port ${port}`);
+  return async () => {
+    const ended = once(child, 'exit');
+    child.kill('SIGKILL');
     await ended;
-    clearTimeout(hard);
-  }
-
-  async call(method, route, body) {
-    const response = await fetch(`${this.url}/api/v1${route}`, {
-      method,
-      ...(body === undefined
-        ? {}
-        : { headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(body) }),
-    });
-    const text = await response.text();
-    if (!response.ok) throw new Error(`${method} ${route}: ${response.status} ${text}`);
-    return JSON.parse(text);
-  }
-
-  simulation() {
-    return this.call('GET', '/simulation');
-  }
-
-  async pushes() {
-    return (await this.call('GET', '/pushes')).items;
-  }
-
-  /** The newest frame as the stream tells it to a client of our own; call it while paused. */
-  async frame() {
-    const socket = new WebSocket(`${this.url.replace('http', 'ws')}/api/v1/stream`);
-    try {
-      return await new Promise((resolve, reject) => {
-        let hello;
-        socket.on('error', reject);
-        socket.on('close', () => reject(new Error('the stream closed without a frame')));
-        socket.on('message', (text) => {
-          const message = JSON.parse(text);
-          if (message.op === 'hello') {
-            hello = message;
-            socket.send('{"op":"subscribe","rate_hz":1000}');
-          } else if (message.op === 'data') {
-            resolve({ hello, ...message });
-          }
-        });
-      });
-    } finally {
-      socket.removeAllListeners('close');
-      socket.terminate();
-    }
-  }
+  };
 }
 
 export function launchBrowser() {
@@ -143,7 +75,10 @@ export class Dashboard {
       );
     });
     await page.goto(url);
-    await dashboard.until((s) => s.condition === 'live' && s.scene?.figure && s.tick !== null, 'a live page');
+    await dashboard.until(
+      (s) => s.condition === 'live' && s.scene?.figure && s.tick !== null,
+      'a live page',
+    );
     return dashboard;
   }
 
@@ -177,7 +112,7 @@ export class Dashboard {
 
   /** Looks until the drawn state is as wanted, and returns it. */
   until(wanted, what) {
-    return until(async () => {
+    return eventually(async () => {
       const state = await this.state();
       return wanted(state) && state;
     }, what);
@@ -185,6 +120,14 @@ export class Dashboard {
 
   text(selector) {
     return this.page.locator(selector).innerText();
+  }
+
+  /** Looks until an element's text is as wanted: the page writes it with the next frame. */
+  shows(selector, wanted) {
+    return eventually(
+      async () => wanted.test(await this.text(selector)),
+      `${selector} to show ${wanted}`,
+    );
   }
 
   click(selector) {

@@ -40,7 +40,9 @@ export function problemFrom(status: number, text: string): Problem {
   const body = parseJson(text);
   if (!isObject(body)) return new Problem(status, `The server answered ${status}`, '', []);
   const errors = asArray(body['errors']).flatMap((item) =>
-    isObject(item) ? [{ pointer: asString(item['pointer']), detail: asString(item['detail']) }] : [],
+    isObject(item)
+      ? [{ pointer: asString(item['pointer']), detail: asString(item['detail']) }]
+      : [],
   );
   return new Problem(
     status,
@@ -187,7 +189,7 @@ function parseAnswer(value: unknown): CommandAnswer {
   return { tick: asNumber(body['tick']), timeS: asNumber(body['time_s']) };
 }
 
-/** How long a request may take before it counts as not answered [ms]; a long step takes its time. */
+/** How long a request may take before it counts as not answered [ms]: a long step takes time. */
 const patienceMs = 20000;
 
 export class Api {

@@ -19,6 +19,15 @@ export function formatNumber(value: number | undefined, digits: number): string 
   return (Number(text) === 0 ? text.replace('-', '') : text).replace('-', '−');
 }
 
+/** At most so many digits, without zeros at the end: for what people have typed. */
+export function formatShort(value: number, digits: number): string {
+  return Number.isFinite(value)
+    ? formatNumber(value, digits)
+        .replace(/(\.\d*?)0+$/, '$1')
+        .replace(/\.$/, '')
+    : '–';
+}
+
 /** A value of a number field; NaN when it is empty or not a number. */
 export function numberIn(input: HTMLInputElement): number {
   return input.value.trim() === '' ? Number.NaN : input.valueAsNumber;

@@ -40,7 +40,7 @@ export class RingTable<Name extends string> {
     this.count = 0;
   }
 
-  /** Rows `from` (0 is the oldest) to the newest, without a copy: valid until the ring comes round. */
+  /** Rows `from` (0 is the oldest) to the newest, no copy: valid until the ring comes round. */
   view(name: Name, from = 0): Float64Array {
     const column = this.column(name);
     const start = this.start();

@@ -10,7 +10,7 @@ import type { Connection } from './stream';
 export const rateHz = 100;
 /** What the plots look back on [s]. */
 export const windowSeconds = 10;
-/** A second window's quarter of slack, so that a view stays whole between two redraws. */
+/** A quarter of slack, so that a plot's view stays whole between two redraws. */
 const ringCapacity = rateHz * windowSeconds * 1.25;
 const maxEvents = 400;
 
@@ -75,14 +75,7 @@ export type SeriesName = (typeof seriesNames)[number];
 export type Condition = 'connecting' | 'live' | 'paused' | 'fallen' | 'lost';
 
 export type Topic =
-  | 'connection'
-  | 'hello'
-  | 'running'
-  | 'event'
-  | 'simulation'
-  | 'robot'
-  | 'robots'
-  | 'condition';
+  'connection' | 'hello' | 'running' | 'event' | 'simulation' | 'robot' | 'robots' | 'condition';
 
 /** Least and greatest of every other number from `offset`, or NaN for an empty list. */
 function extent(values: readonly number[], offset: number): [number, number] {
@@ -101,7 +94,8 @@ export class Store {
   hello: Hello | null = null;
   /** The newest data message. */
   frame: Data | null = null;
-  running = true;
+  /** Whether the simulation's time goes on; null until the server has said so. */
+  running: boolean | null = null;
   simulation: SimulationState | null = null;
   robot: RobotInfo | null = null;
   robots: readonly RobotInfo[] = [];
@@ -125,6 +119,7 @@ export class Store {
 
   setConnection(connection: Connection): void {
     this.connection = connection;
+    if (connection.kind === 'connecting') this.running = null;
     this.tell('connection');
     this.noteCondition();
   }
@@ -216,7 +211,7 @@ export class Store {
 
   get condition(): Condition {
     if (this.connection.kind === 'lost') return 'lost';
-    if (this.connection.kind === 'connecting') return 'connecting';
+    if (this.connection.kind === 'connecting' || this.running === null) return 'connecting';
     if (this.fallen) return 'fallen';
     return this.running ? 'live' : 'paused';
   }

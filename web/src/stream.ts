@@ -1,4 +1,4 @@
-// The WebSocket to the server: connects, subscribes, notices silence, reconnects with a growing wait.
+// The WebSocket to the server: connects, subscribes, notices silence, reconnects ever more slowly.
 
 import type { Data, Heartbeat, Hello, StreamEvent } from './protocol';
 import { parseMessage } from './protocol';

@@ -20,6 +20,7 @@ describe('Store', () => {
     store = new Store();
     store.setHello(read<Hello>(hello()));
     store.setConnection({ kind: 'open' });
+    store.setRunning(true);
   });
 
   const frame = (seq: number, t: number, v: Record<string, unknown> = {}): void =>
@@ -35,9 +36,9 @@ describe('Store', () => {
 
   it('takes the edges of the support polygon', () => {
     frame(0, 0.01, { support_polygon: [0.1, -0.2, -0.3, 0.4, 0.2, 0.1] });
-    const edges = (['polygon_min_x', 'polygon_max_x', 'polygon_min_y', 'polygon_max_y'] as const).map(
-      (name) => store.series.last(name),
-    );
+    const edges = (
+      ['polygon_min_x', 'polygon_max_x', 'polygon_min_y', 'polygon_max_y'] as const
+    ).map((name) => store.series.last(name));
     expect(edges).toEqual([-0.3, 0.2, -0.2, 0.4]);
   });
 
@@ -91,6 +92,15 @@ describe('Store', () => {
     expect(store.condition).toBe('lost');
     store.setConnection({ kind: 'connecting' });
     expect(store.condition).toBe('connecting');
+  });
+
+  it('does not call live what nobody has said to be running', () => {
+    store.setConnection({ kind: 'connecting' });
+    store.setHello(read<Hello>(hello('b')));
+    store.setConnection({ kind: 'open' });
+    expect(store.condition).toBe('connecting');
+    store.setRunning(false);
+    expect(store.condition).toBe('paused');
   });
 
   it('tells listeners once per change of condition', () => {

@@ -1,6 +1,12 @@
 import { describe, expect, it } from 'vitest';
-import { GroundTransform, lag, scaleBarLength, soleCorners } from '../src/views/transform';
-import { polygonFrom, stepsFrom } from '../src/views/top_view';
+import {
+  GroundTransform,
+  lag,
+  polygonFrom,
+  scaleBarLength,
+  soleCorners,
+  stepsFrom,
+} from '../src/views/transform';
 
 describe('GroundTransform', () => {
   const view = new GroundTransform({ x: 2, y: -1 }, 200, 400, 300);

@@ -45,9 +45,12 @@ export class ConditionBar {
     this.retry.hidden = condition !== 'lost';
     const plant = hello?.plant === 'lipm' ? 'pendulum' : 'full body';
     setText(this.robot, hello === null ? '–' : `${hello.robot}, ${plant}`);
-    setText(this.walking, store.walkingState === '' ? '–' : store.walkingState.replaceAll('_', ' '));
+    setText(
+      this.walking,
+      store.walkingState === '' ? '–' : store.walkingState.replaceAll('_', ' '),
+    );
     setText(this.time, frame === null ? '–' : `${formatNumber(frame.t, 2)} s`);
-    const speed = store.running ? simulation?.realTimeFactor : 0;
+    const speed = store.connection.kind === 'open' ? simulation?.realTimeFactor : undefined;
     setText(this.speed, speed === undefined ? '–' : `${formatNumber(speed, 2)} ×`);
     this.banner.hidden = condition !== 'fallen';
     setText(this.reason, simulation?.fallReason ?? '');
@@ -61,6 +64,6 @@ export class ConditionBar {
       const seconds = Math.max(0, Math.ceil((connection.retryAt - Date.now()) / 1000));
       return `Lost: ${connection.reason}. Reconnecting in ${seconds} s`;
     }
-    return condition === 'fallen' && !running ? 'Fallen, paused' : words[condition];
+    return condition === 'fallen' && running === false ? 'Fallen, paused' : words[condition];
   }
 }

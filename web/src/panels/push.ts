@@ -2,7 +2,7 @@
 
 import type { Api, PushResource } from '../api';
 import { linesOf } from '../api';
-import { byId, fillSelect, formatNumber, numberIn, setText, showLines } from '../dom';
+import { byId, fillSelect, formatNumber, formatShort, numberIn, setText, showLines } from '../dom';
 import {
   buildPush,
   deltaV,
@@ -21,11 +21,11 @@ function isDirection(name: string | undefined): name is Direction {
   return name !== undefined && name in directions;
 }
 
-/** Whether a key pressed there belongs to what has the focus: typing, choosing, looking around. */
+/** Whether a key pressed there belongs to what has the focus: typing, choosing, scrolling. */
 function usesArrows(target: EventTarget | null): boolean {
   return (
     target instanceof Element &&
-    target.closest('input:not([type=checkbox]), select, textarea, canvas, [role=slider], ol, summary') !== null
+    target.closest('input:not([type=checkbox]), select, textarea, ol') !== null
   );
 }
 
@@ -79,6 +79,10 @@ export class PushPanel {
       const kind = store.events[store.events.length - 1]?.kind ?? '';
       if (kind.startsWith('push')) void this.readPushes();
     });
+    // What an active push has delivered so far changes without an event.
+    store.on('simulation', () => {
+      if (this.pushes.some((push) => push.state === 'active')) void this.readPushes();
+    });
     this.showEquals();
   }
 
@@ -119,10 +123,12 @@ export class PushPanel {
     try {
       const push = await this.api.push(buildPush(choice));
       showLines(this.error, []);
-      const when = push.state === 'scheduled' && choice.trigger !== null ? ' waits for its phase' : '';
+      const when =
+        push.state === 'scheduled' && choice.trigger !== null ? ' waits for its phase' : '';
       setText(
         this.answer,
-        `Push ${push.id}: ${formatNumber(choice.impulseNs, 1)} N s ${directionName(directionDeg)}${when}.`,
+        `Push ${push.id}: ${formatShort(choice.impulseNs, 3)} N s ` +
+          `${directionName(directionDeg)}${when}.`,
       );
     } catch (error) {
       showLines(this.error, linesOf(error));
@@ -189,7 +195,7 @@ export class PushPanel {
     row.className = `state-${push.state}`;
     const what = row.insertCell();
     what.textContent =
-      `${push.id}. ${formatNumber(push.impulseNs, 1)} N s ${directionName(push.directionDeg)}` +
+      `${push.id}. ${formatShort(push.impulseNs, 3)} N s ${directionName(push.directionDeg)}` +
       (push.link === 'torso' ? '' : `, ${push.link}`);
     row.insertCell().textContent = push.state;
     const last = row.insertCell();

@@ -53,6 +53,8 @@ export class SimulationPanel {
     ['Session', true],
   ]);
   private reading = false;
+  /** Counts commands: a state that was asked for before one tells of the time before it. */
+  private commands = 0;
 
   constructor(
     private readonly store: Store,
@@ -60,7 +62,7 @@ export class SimulationPanel {
   ) {
     const { transportError } = this;
     this.pause.addEventListener('click', () => {
-      const { running } = this.store;
+      const running = this.store.running !== false;
       void this.command(transportError, async () => {
         await (running ? this.api.pause() : this.api.resume());
         this.store.setRunning(!running);
@@ -113,7 +115,12 @@ export class SimulationPanel {
     if (this.reading) return;
     this.reading = true;
     try {
-      this.store.setSimulation(await this.api.simulation());
+      let before: number;
+      do {
+        before = this.commands;
+        const state = await this.api.simulation();
+        if (before === this.commands) this.store.setSimulation(state);
+      } while (before !== this.commands);
     } catch {
       // The connection's own state tells that the server is away.
     } finally {
@@ -129,15 +136,16 @@ export class SimulationPanel {
     } catch (error) {
       showLines(where, linesOf(error));
     }
+    this.commands += 1;
     void this.read();
   }
 
   private showRunning(): void {
     const { running, connection } = this.store;
     const away = connection.kind !== 'open';
-    setText(this.pause, running ? 'Pause' : 'Resume');
+    setText(this.pause, running === false ? 'Resume' : 'Pause');
     this.pause.disabled = away;
-    this.step.disabled = away || running;
+    this.step.disabled = away || running !== false;
     byId('reset', HTMLButtonElement).disabled = away;
   }
 

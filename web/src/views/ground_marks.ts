@@ -3,8 +3,7 @@
 import * as THREE from 'three';
 import type { Store } from '../store';
 import type { Theme } from '../theme';
-import { polygonFrom, stepsFrom } from './top_view';
-import { soleCorners } from './transform';
+import { polygonFrom, soleCorners, stepsFrom } from './transform';
 import type { Point } from './transform';
 
 /** Above the floor, so that nothing flickers against it [m]. */
@@ -27,7 +26,9 @@ class Outline {
   set(points: readonly Point[]): void {
     const count = Math.min(points.length, mostCorners);
     this.object.visible = count > 2;
-    points.slice(0, count).forEach((point, i) => this.positions.set([point.x, point.y, lift], 3 * i));
+    points
+      .slice(0, count)
+      .forEach((point, i) => this.positions.set([point.x, point.y, lift], 3 * i));
     const { geometry } = this.object;
     geometry.setDrawRange(0, count);
     const attribute = geometry.getAttribute('position');

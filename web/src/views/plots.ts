@@ -166,8 +166,7 @@ export class Plots {
   update(nowMs: number): void {
     const { store } = this;
     const events = store.events.length;
-    const news =
-      this.dirty || store.version !== this.drawnVersion || events !== this.drawnEvents;
+    const news = this.dirty || store.version !== this.drawnVersion || events !== this.drawnEvents;
     if (!news || nowMs - this.lastDraw < redrawPeriodMs) return;
     this.lastDraw = nowMs;
     this.drawnVersion = store.version;
@@ -278,7 +277,8 @@ export class Plots {
   private markers(): { t: number; kind: string; text: string }[] {
     const kinds = ['push_started', 'fall', 'step'];
     return this.store.events.filter(
-      (event) => kinds.includes(event.kind) && event.t >= this.window[0] && event.t <= this.window[1],
+      (event) =>
+        kinds.includes(event.kind) && event.t >= this.window[0] && event.t <= this.window[1],
     );
   }
 
@@ -307,7 +307,10 @@ export class Plots {
         c.font = `600 ${axisFont * ratio}px ${this.theme.font}`;
         c.textAlign = 'left';
         c.textBaseline = 'top';
-        c.fillText(kind === 'fall' ? 'fall' : 'push', x + 4 * ratio, bbox.top + 2 * ratio);
+        // A fall is often close behind its push: its word stands a line lower.
+        const row = kind === 'fall' ? 1 : 0;
+        const y = bbox.top + (2 + row * (axisFont + 2)) * ratio;
+        c.fillText(kind === 'fall' ? 'fall' : 'push', x + 4 * ratio, y);
       }
     }
     c.restore();
@@ -323,7 +326,10 @@ export class Plots {
     const [t] = uplot.data;
     const index = uplot.cursor.idx ?? t.length - 1;
     const measured = uplot.data[1]?.[index] ?? undefined;
-    const when = uplot.cursor.idx === null || uplot.cursor.idx === undefined ? '' : `at ${formatNumber(t[index], 2)} s: `;
+    const when =
+      uplot.cursor.idx === null || uplot.cursor.idx === undefined
+        ? ''
+        : `at ${formatNumber(t[index], 2)} s: `;
     let text = `${when}${formatNumber(measured, 3)}`;
     if (spec.reference !== undefined) {
       text += ` / ${formatNumber(uplot.data[2]?.[index] ?? undefined, 3)}`;

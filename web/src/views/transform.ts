@@ -6,6 +6,11 @@ export interface Point {
   readonly y: number;
 }
 
+/** Place of a sole on the ground: centre [m] and yaw [rad]. */
+export interface Foot extends Point {
+  readonly yaw: number;
+}
+
 export class GroundTransform {
   constructor(
     readonly centre: Point,
@@ -33,7 +38,7 @@ export class GroundTransform {
 
 /** Corners of a foot's sole in the world, going round. */
 export function soleCorners(
-  pose: { readonly x: number; readonly y: number; readonly yaw: number },
+  pose: Foot,
   length: number,
   width: number,
 ): [Point, Point, Point, Point] {
@@ -48,7 +53,7 @@ export function soleCorners(
   return [corner(l, w), corner(l, -w), corner(-l, -w), corner(-l, w)];
 }
 
-/** A round length for the scale bar that is at most `longest` [m]: 1, 2 or 5 times a power of ten. */
+/** A round length for the scale bar, at most `longest` [m]: 1, 2 or 5 times a power of ten. */
 export function scaleBarLength(longest: number): number {
   const power = 10 ** Math.floor(Math.log10(longest));
   const factor = longest / power;
@@ -58,4 +63,35 @@ export function scaleBarLength(longest: number): number {
 /** Moves towards a target as a first-order lag does in `dt` with time constant `tau` [s]. */
 export function lag(from: number, to: number, dt: number, tau: number): number {
   return from + (to - from) * (1 - Math.exp(-dt / tau));
+}
+
+/** A foot from a channel x, y, z, yaw, or null when there is none. */
+export function footFrom(values: readonly number[]): Foot | null {
+  const [x, y, , yaw] = values;
+  return x === undefined || y === undefined || yaw === undefined ? null : { x, y, yaw };
+}
+
+/** A point from a channel that begins with x, y, or null when there is none. */
+export function pointFrom(values: readonly number[]): Point | null {
+  const [x, y] = values;
+  return x === undefined || y === undefined ? null : { x, y };
+}
+
+/** Steps of a list of x, y, yaw, side. */
+export function stepsFrom(values: readonly number[]): (Foot & { side: number })[] {
+  const steps: (Foot & { side: number })[] = [];
+  for (let i = 0; i + 3 < values.length; i += 4) {
+    const [x = 0, y = 0, yaw = 0, side = 0] = values.slice(i, i + 4);
+    steps.push({ x, y, yaw, side });
+  }
+  return steps;
+}
+
+/** Corners of a list of x, y. */
+export function polygonFrom(values: readonly number[]): Point[] {
+  const points: Point[] = [];
+  for (let i = 0; i + 1 < values.length; i += 2) {
+    points.push({ x: values[i] ?? 0, y: values[i + 1] ?? 0 });
+  }
+  return points;
 }
