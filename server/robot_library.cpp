@@ -19,7 +19,8 @@ std::shared_ptr<const sim::Robot> RobotLibrary::find(const std::string& name) {
 std::string RobotLibrary::unknown(const std::string& name) const {
   std::string list;
   for (const std::string& known : names()) list += (list.empty() ? "" : ", ") + known;
-  return "is \"" + name + "\"; robots in " + folder_.string() + ": " + (list.empty() ? "none" : list);
+  return "is \"" + name + "\"; robots in " + folder_.string() + ": " +
+         (list.empty() ? "none" : list);
 }
 
 }  // namespace stagger::server

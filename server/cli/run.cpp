@@ -24,7 +24,8 @@ int run_command(const RunOptions& options, const Folders& folders) {
   sim::Simulation simulation(config);
   simulation.walk(options.walk);
 
-  const auto ticks = static_cast<std::uint64_t>(std::llround(options.seconds / sim::Simulation::tick_s));
+  const auto ticks =
+      static_cast<std::uint64_t>(std::llround(options.seconds / sim::Simulation::tick_s));
   const auto start = std::chrono::steady_clock::now();
   for (std::uint64_t i = 0; i < ticks; ++i) {
     simulation.step();

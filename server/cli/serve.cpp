@@ -1,9 +1,9 @@
 #include <pthread.h>
-#include <signal.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <csignal>
 #include <iostream>
 #include <thread>
 
@@ -95,8 +95,8 @@ int serve_command(const ServeOptions& options, const Folders& folders) {
   http.stream_clients = options.stream_clients;
   std::unique_ptr<HttpServer> server;
   try {
-    server = std::make_unique<HttpServer>(http, make_router(services),
-                                          [&hub](StreamSocket& socket) { serve_stream(socket, hub); });
+    server = std::make_unique<HttpServer>(
+        http, make_router(services), [&hub](StreamSocket& socket) { serve_stream(socket, hub); });
   } catch (const std::runtime_error& error) {
     std::cerr << "stagger: " << error.what() << '\n';
     return exit_transport;

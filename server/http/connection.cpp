@@ -140,7 +140,7 @@ bool Connection::send_all(const char* data, std::size_t size) {
   return true;
 }
 
-void Connection::shut_down() { shutdown(socket_, SHUT_RDWR); }
+void Connection::shut_down() const { shutdown(socket_, SHUT_RDWR); }
 
 void Connection::linger() {
   shutdown(socket_, SHUT_WR);

@@ -16,8 +16,8 @@ namespace stagger::server {
 
 /// What the HTTP library's own stream lacks: a write that is cut short counts as an error (the
 /// library takes it for a success, and everything after it is garbage), a WebSocket frame leaves in
-/// one piece, a close frame can come from another thread than the one that reads, and everything can
-/// be ended from outside. Does not own the descriptor.
+/// one piece, a close frame can come from another thread than the one that reads, and everything
+/// can be ended from outside. Does not own the descriptor.
 class Connection {
  public:
   /// A client that takes nothing for this long is given up.
@@ -48,7 +48,7 @@ class Connection {
   bool stalled() const { return stalled_; }
 
   /// Ends what all threads do with the socket. The descriptor stays open.
-  void shut_down();
+  void shut_down() const;
   /// Tells the client that nothing more comes, and swallows what it still sends: to close with data
   /// unread would destroy the answer on its way.
   void linger();

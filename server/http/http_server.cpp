@@ -12,6 +12,7 @@
 #include <atomic>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "server/http/connection.h"
 #include "server/http/problem.h"
@@ -166,9 +167,13 @@ class HttpServer::Impl {
   void start() {
     thread_ = std::thread([this] { server_.listen_after_bind(); });
     server_.wait_until_ready();
+    listening_ = true;
   }
 
-  void stop_listening() { server_.stop(); }
+  void stop_listening() {
+    // The library may be told so only once.
+    if (std::exchange(listening_, false)) server_.stop();
+  }
 
   void stop() {
     stop_listening();
@@ -191,9 +196,8 @@ class HttpServer::Impl {
     server_.set_payload_max_length(max_body);
     server_.set_websocket_ping_interval(0);  // the writer pings: one thread less for each client
     // The library would share the port with another server that listens there already.
-    server_.set_socket_options([](socket_t socket) {
-      httplib::set_socket_opt(socket, SOL_SOCKET, SO_REUSEADDR, 1);
-    });
+    server_.set_socket_options(
+        [](socket_t socket) { httplib::set_socket_opt(socket, SOL_SOCKET, SO_REUSEADDR, 1); });
     // Asked before the body is sent: no need to take it in first.
     server_.set_expect_100_continue_handler([](const auto& request, auto& response) {
       if (request.get_header_value_u64("Content-Length") <= max_body) return 100;
@@ -240,17 +244,16 @@ class HttpServer::Impl {
     if (request.get_header_value_count("Host") > 1) {
       return refuse(Problem(400, "there is more than one Host"));
     }
-    const auto refusal = gatekeeper_->refusal(request.get_header_value("Host"),
-                                              request.get_header_value("Origin"));
+    const auto refusal =
+        gatekeeper_->refusal(request.get_header_value("Host"), request.get_header_value("Origin"));
     if (refusal) return refuse(Problem(403, *refusal));
     if (request.path != options_.stream_path || !httplib::detail::is_websocket_upgrade(request)) {
       return true;
     }
     if (++server_.streams > options_.stream_clients) {
       --server_.streams;
-      Problem problem(503, "there are as many stream clients as this server takes");
-      problem.headers.emplace_back("Retry-After", "5");
-      return refuse(problem);
+      return refuse(Problem(503, "there are as many stream clients as this server takes")
+                        .with_header("Retry-After", "5"));
     }
     this_connection.holds_stream_place = true;
     return true;
@@ -259,7 +262,7 @@ class HttpServer::Impl {
   void listen() {
     port_ = options_.port == 0 ? server_.bind_to_any_port(options_.host)
             : server_.bind_to_port(options_.host, options_.port) ? options_.port
-                                                                  : -1;
+                                                                 : -1;
     if (port_ < 0) {
       throw std::runtime_error("cannot listen on " + options_.host + " port " +
                                std::to_string(options_.port) + "; is it taken?");
@@ -272,6 +275,7 @@ class HttpServer::Impl {
   LibraryServer server_;
   std::unique_ptr<Gatekeeper> gatekeeper_;
   int port_ = -1;
+  bool listening_ = false;
   std::thread thread_;
 };
 

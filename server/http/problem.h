@@ -21,6 +21,9 @@ class Problem : public std::runtime_error {
   /// 422: fields are not as they should be.
   explicit Problem(const sim::JsonErrors& errors);
 
+  /// The same with a header more.
+  Problem with_header(const std::string& name, const std::string& value) const;
+
   int status;
   std::vector<sim::JsonError> errors;
   std::vector<std::pair<std::string, std::string>> headers;

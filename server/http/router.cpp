@@ -94,9 +94,8 @@ HttpResponse Router::dispatch(HttpRequest& request) const {
     list += (list.empty() ? "" : ", ") + name;
     if (name == "GET") list += ", HEAD";
   }
-  Problem problem(405, request.method + " is not possible at " + request.path + "; allowed: " + list);
-  problem.headers.emplace_back("Allow", list);
-  throw problem;
+  throw Problem(405, request.method + " is not possible at " + request.path + "; allowed: " + list)
+      .with_header("Allow", list);
 }
 
 }  // namespace stagger::server

@@ -44,9 +44,8 @@ std::optional<Authority> parse_authority(const std::string& text) {
 
 // A name server cannot make a number point elsewhere.
 bool is_address(const std::string& name) {
-  const bool numbers = std::all_of(name.begin(), name.end(), [](unsigned char c) {
-    return std::isdigit(c) || c == '.';
-  });
+  const bool numbers = std::all_of(name.begin(), name.end(),
+                                   [](unsigned char c) { return std::isdigit(c) || c == '.'; });
   return !name.empty() && (numbers || name.find(':') != std::string::npos);
 }
 
@@ -77,7 +76,7 @@ std::optional<std::string> Gatekeeper::refusal(const std::string& host,
 std::vector<std::pair<std::string, std::string>> security_headers(const std::string& host) {
   return {{"Content-Security-Policy",
            "default-src 'self'; connect-src 'self' ws://" + host +
-               "; img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'; object-src 'none'; "
+               "; img-src 'self' data: blob:; object-src 'none'; "
                "base-uri 'none'; form-action 'self'; frame-ancestors 'none'"},
           {"X-Content-Type-Options", "nosniff"},
           {"Referrer-Policy", "no-referrer"},

@@ -12,8 +12,8 @@ namespace stagger::server {
 bool is_loopback(const std::string& host);
 
 /// A web page elsewhere can make its visitor's browser send requests here. Two checks stop it: the
-/// Host must be one of our own names (a foreign name that was made to point at 127.0.0.1 is not), and
-/// the Origin, when there is one, must be that same host.
+/// Host must be one of our own names (a foreign name that was made to point at 127.0.0.1 is not),
+/// and the Origin, when there is one, must be that same host.
 class Gatekeeper {
  public:
   /// `bound` is the address that the server listens on.

@@ -66,8 +66,10 @@ std::optional<fs::path> file_below(const fs::path& folder, const std::string& pa
 HttpResponse file_response(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw Problem(404, "the file cannot be read");
-  return {200, type_of(file),
-          std::string(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()), {}};
+  return {200,
+          type_of(file),
+          std::string(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()),
+          {}};
 }
 
 HttpResponse dashboard_response(const fs::path& folder, const std::string& path) {

@@ -30,7 +30,8 @@ class Writer {
     Clock::time_point next_heartbeat = Clock::now() + heartbeat_period;
     while (!subscriber_.finished()) {
       const auto item = subscriber_.next(next_heartbeat);
-      if (item && std::holds_alternative<CloseItem>(*item)) return close(std::get<CloseItem>(*item));
+      if (item && std::holds_alternative<CloseItem>(*item))
+        return close(std::get<CloseItem>(*item));
       bool alive = !item || sent(socket_.send(text_of(*item)));
       if (alive && Clock::now() >= next_heartbeat) {
         next_heartbeat = Clock::now() + heartbeat_period;
@@ -60,8 +61,7 @@ class Writer {
     const FramePtr latest = hub_.latest();
     const std::uint64_t tick = latest ? latest->frame.tick : 0;
     const double time = latest ? latest->frame.time : 0.0;
-    if (!sent(socket_.send(
-            heartbeat_text(tick, time, hub_.running(), subscriber_.dropped())))) {
+    if (!sent(socket_.send(heartbeat_text(tick, time, hub_.running(), subscriber_.dropped())))) {
       return false;
     }
     if (++heartbeats_ % heartbeats_per_ping != 0) return true;

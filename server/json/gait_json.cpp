@@ -86,10 +86,14 @@ std::string_view name_of(sim::PlantKind plant) {
 
 std::string_view name_of(sim::WalkingState state) {
   switch (state) {
-    case sim::WalkingState::idle: return "idle";
-    case sim::WalkingState::initialize: return "initialize";
-    case sim::WalkingState::single_support: return "single_support";
-    case sim::WalkingState::double_support: return "double_support";
+    case sim::WalkingState::idle:
+      return "idle";
+    case sim::WalkingState::initialize:
+      return "initialize";
+    case sim::WalkingState::single_support:
+      return "single_support";
+    case sim::WalkingState::double_support:
+      return "double_support";
   }
   return "";
 }

@@ -72,9 +72,9 @@ double read_impulse(sim::JsonReader& reader, double duration_s, sim::PushProfile
 sim::PhaseTrigger read_phase(sim::JsonReader& reader) {
   using engine::WalkingState;
   sim::PhaseTrigger trigger;
-  trigger.phase = reader.one_of<WalkingState>("phase",
-                                              {{"single_support", WalkingState::single_support},
-                                               {"double_support", WalkingState::double_support}});
+  trigger.phase =
+      reader.one_of<WalkingState>("phase", {{"single_support", WalkingState::single_support},
+                                            {"double_support", WalkingState::double_support}});
   trigger.leg = reader.optional_one_of<sim::Side>(
       "leg", {{"left", sim::Side::left}, {"right", sim::Side::right}});
   trigger.fraction =
@@ -97,10 +97,14 @@ Json vector_json(const sim::Vec3& v) { return Json::array({v.x(), v.y(), v.z()})
 
 std::string_view name_of(sim::PushState state) {
   switch (state) {
-    case sim::PushState::scheduled: return "scheduled";
-    case sim::PushState::active: return "active";
-    case sim::PushState::done: return "done";
-    case sim::PushState::cancelled: return "cancelled";
+    case sim::PushState::scheduled:
+      return "scheduled";
+    case sim::PushState::active:
+      return "active";
+    case sim::PushState::done:
+      return "done";
+    case sim::PushState::cancelled:
+      return "cancelled";
   }
   return "scheduled";
 }

@@ -5,9 +5,12 @@ namespace stagger::server {
 Json robot_json(const sim::Robot& robot) {
   Json links = Json::array();
   for (const auto& [name, place] : robot.model.links) links.push_back(name);
+  const sim::SoleDescription& sole = robot.description.feet[0].sole;
   return {{"name", robot.name},
           {"mass_kg", robot.model.mass()},
           {"com_height_m", robot.description.walk.com_height_m},
+          {"base_link", robot.model.bodies.front().name},
+          {"sole", {{"length_m", sole.length}, {"width_m", sole.width}}},
           {"links", std::move(links)},
           {"joints", robot.model.joint_names()}};
 }

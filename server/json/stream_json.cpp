@@ -66,7 +66,7 @@ std::string hello_text(const SessionInfo& session) {
 std::string event_text(const EventMessage& event) {
   Json values = Json::object();
   for (const auto& [name, value] : event.values) values[name] = value;
-  Json json{{"op", "event"},     {"tick", event.tick}, {"t", event.time},
+  Json json{{"op", "event"},      {"tick", event.tick}, {"t", event.time},
             {"kind", event.kind}, {"text", event.text}, {"values", std::move(values)}};
   if (!event.source.empty()) json["source"] = event.source;
   return to_text(json);

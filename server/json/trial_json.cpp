@@ -9,10 +9,14 @@ namespace {
 
 std::string_view name_of(sim::TrialOutcome outcome) {
   switch (outcome) {
-    case sim::TrialOutcome::recovered: return "recovered";
-    case sim::TrialOutcome::fell: return "fell";
-    case sim::TrialOutcome::timeout: return "timeout";
-    case sim::TrialOutcome::invalid: return "invalid";
+    case sim::TrialOutcome::recovered:
+      return "recovered";
+    case sim::TrialOutcome::fell:
+      return "fell";
+    case sim::TrialOutcome::timeout:
+      return "timeout";
+    case sim::TrialOutcome::invalid:
+      return "invalid";
   }
   return "invalid";
 }

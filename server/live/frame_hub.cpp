@@ -19,7 +19,7 @@ void FrameHub::publish(FramePtr frame, bool always) {
   }
 }
 
-void FrameHub::publish(EventPtr event) {
+void FrameHub::publish(const EventPtr& event) {
   const std::lock_guard lock(mutex_);
   for (const auto& subscriber : subscribers_) subscriber->offer(event);
 }

@@ -24,7 +24,7 @@ class FrameHub {
   // The simulation thread's side.
   void start_session(SessionPtr session);
   void publish(FramePtr frame, bool always);
-  void publish(EventPtr event);
+  void publish(const EventPtr& event);
   void set_running(bool running) { running_ = running; }
 
   // The clients' side.

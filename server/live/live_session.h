@@ -1,4 +1,5 @@
-// The world that people watch: one thread owns the simulation and keeps it at the wall clock's pace.
+// The world that people watch: one thread owns the simulation and keeps it at the wall clock's
+// pace.
 #pragma once
 
 #include <cstdint>
@@ -59,6 +60,10 @@ class LiveSession {
  public:
   static constexpr std::size_t queue_capacity = 256;
   static constexpr std::uint64_t max_step_ticks = 10000;
+  /// Pushes that wait or act at a time: every tick looks at each of them.
+  static constexpr std::size_t max_open_pushes = 1000;
+  /// Pushes of one session, done ones included.
+  static constexpr std::size_t max_pushes = 100000;
 
   /// Builds the world and starts the thread. Throws what the simulation's constructor throws.
   LiveSession(const sim::SimulationConfig& config, FrameHub& hub, bool walk_at_start);
@@ -117,6 +122,7 @@ class LiveSession {
   void break_down(const std::string& why);
   void end_steps(const CommandError& why);
   void require_intact() const;
+  void require_room_for_a_push();
   Effect now() const;
   void announce(const Effect& effect, std::string text, const std::string& source,
                 std::vector<std::pair<std::string, double>> values = {});
@@ -135,7 +141,9 @@ class LiveSession {
   bool running_ = true;
   std::string error_;
   std::deque<StepJob> steps_;
+  std::vector<std::uint64_t> open_pushes_;  ///< ids
 
+  std::mutex reset_mutex_;  ///< one new world at a time; not for the simulation thread
   mutable std::mutex state_mutex_;
   SessionState state_;
   std::thread thread_;

@@ -6,7 +6,7 @@ import { Server, eventually, isProblem, within } from './support.mjs';
 
 let server;
 before(async () => (server = await Server.start()));
-after(() => server.kill());
+after(() => server.end());
 
 const pointers = (answer) => answer.json.errors.map((error) => error.pointer).sort();
 const refused = (answer, status) => assert.ok(isProblem(answer, status), JSON.stringify(answer));

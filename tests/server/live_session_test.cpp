@@ -105,6 +105,18 @@ TEST_F(LiveSessionTest, APushCanBeCancelledAndListed) {
   EXPECT_EQ(kind_of([&] { session_.push(push, "test"); }), CommandError::Kind::invalid);
 }
 
+TEST_F(LiveSessionTest, PushesThatWaitAreBounded) {
+  sim::PushSpec push;
+  push.impulse_ns = 1.0;
+  push.trigger = sim::TimeTrigger{1e5};
+  for (std::size_t i = 0; i < LiveSession::max_open_pushes; ++i) session_.push(push, "test");
+  EXPECT_EQ(kind_of([&] { session_.push(push, "test"); }), CommandError::Kind::conflict);
+  session_.cancel_push(1, "test");
+  EXPECT_EQ(session_.push(push, "test").id, LiveSession::max_open_pushes + 1);
+  session_.reset(pendulum(), "test");
+  EXPECT_EQ(session_.push(push, "test").id, 1U);
+}
+
 TEST_F(LiveSessionTest, AResetIsANewWorld) {
   session_.pause("test");
   session_.step(100, "test");

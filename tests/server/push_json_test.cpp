@@ -46,10 +46,8 @@ TEST(PushJson, FillsInTheDefaults) {
 
 TEST(PushJson, TurnsAnglesIntoDirectionsInTheHeadingsFrame) {
   EXPECT_EQ(read(R"({"impulse_ns":1,"direction_deg":90})").push.direction, sim::Vec3::UnitY());
-  EXPECT_EQ(read(R"({"impulse_ns":1,"direction_deg":-90})").push.direction,
-            -sim::Vec3::UnitY());
-  EXPECT_EQ(read(R"({"impulse_ns":1,"direction_deg":180})").push.direction,
-            -sim::Vec3::UnitX());
+  EXPECT_EQ(read(R"({"impulse_ns":1,"direction_deg":-90})").push.direction, -sim::Vec3::UnitY());
+  EXPECT_EQ(read(R"({"impulse_ns":1,"direction_deg":180})").push.direction, -sim::Vec3::UnitX());
   const sim::Vec3 slanted = read(R"({"impulse_ns":1,"direction_deg":30})").push.direction;
   EXPECT_NEAR(slanted.x(), std::sqrt(3.0) / 2.0, 1e-12);
   EXPECT_NEAR(slanted.y(), 0.5, 1e-12);
@@ -70,9 +68,9 @@ TEST(PushJson, AForceIsItsPeak) {
 TEST(PushJson, RefusesWhatIsOutOfRangeByName) {
   const Read r = read(R"({"impulse_ns":-3,"duration_s":3,"direction_deg":500,"profile":"step",
                           "point":[0,0],"at_s":-1,"link":""})");
-  EXPECT_THAT(pointers(r), ::testing::UnorderedElementsAre("/impulse_ns", "/duration_s",
-                                                           "/direction_deg", "/profile", "/point",
-                                                           "/at_s", "/link"));
+  EXPECT_THAT(pointers(r),
+              ::testing::UnorderedElementsAre("/impulse_ns", "/duration_s", "/direction_deg",
+                                              "/profile", "/point", "/at_s", "/link"));
   const Read impulse = read(R"({"impulse_ns":-3})");
   ASSERT_EQ(impulse.errors.size(), 1U);
   EXPECT_EQ(impulse.errors[0].text, "is -3; allowed: more than 0 to 200 N s");
@@ -97,9 +95,8 @@ TEST(PushJson, RefusesContradictions) {
   EXPECT_THAT(pointers(read("{}")), ElementsAre("/impulse_ns"));
   EXPECT_THAT(pointers(read(R"({"impulse_ns":1,"direction":[1,0,0],"direction_deg":0})")),
               ElementsAre("/direction"));
-  EXPECT_THAT(
-      pointers(read(R"({"impulse_ns":1,"at_s":1,"trigger":{"phase":"single_support"}})")),
-      ElementsAre("/at_s"));
+  EXPECT_THAT(pointers(read(R"({"impulse_ns":1,"at_s":1,"trigger":{"phase":"single_support"}})")),
+              ElementsAre("/at_s"));
   EXPECT_THAT(pointers(read(R"({"impulse_ns":1,"direction":[0,0,0]})")), ElementsAre("/direction"));
 }
 

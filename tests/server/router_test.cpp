@@ -22,9 +22,8 @@ Router make() {
   router.add("GET", "/api/v1/things/{id}/files/{path...}", [](const HttpRequest& request) {
     return HttpResponse{200, "text/plain", request.parameters.at("path"), {}};
   });
-  router.add("POST", "/api/v1/fail", [](const HttpRequest&) -> HttpResponse {
-    throw std::runtime_error("broken");
-  });
+  router.add("POST", "/api/v1/fail",
+             [](const HttpRequest&) -> HttpResponse { throw std::runtime_error("broken"); });
   router.add("POST", "/api/v1/busy", [](const HttpRequest&) -> HttpResponse {
     throw CommandError(CommandError::Kind::busy, "full");
   });

@@ -9,8 +9,8 @@ TEST(Security, KnowsLoopback) {
   for (const char* host : {"127.0.0.1", "127.8.9.1", "::1", "localhost"}) {
     EXPECT_TRUE(is_loopback(host)) << host;
   }
-  for (const char* host : {"0.0.0.0", "192.168.1.4", "127.0.0.1.evil.com", "127.evil.com", "::",
-                           "localhost.evil.com", ""}) {
+  for (const char* host : {"0.0.0.0", "192.168.1.4", "127.0.0.1.evil.com", "127.evil.com",
+                           "::", "localhost.evil.com", ""}) {
     EXPECT_FALSE(is_loopback(host)) << host;
   }
 }
@@ -42,9 +42,9 @@ TEST(Security, AnOriginMustBeTheSameHost) {
   const Gatekeeper gate("127.0.0.1", 8080);
   EXPECT_FALSE(gate.refusal("127.0.0.1:8080", "http://127.0.0.1:8080"));
   EXPECT_FALSE(gate.refusal("localhost:8080", "http://localhost:8080"));
-  for (const char* origin : {"http://evil.com", "null", "https://127.0.0.1:8080",
-                             "http://localhost:8080", "http://127.0.0.1:8081",
-                             "http://127.0.0.1:8080.evil.com", "http://127.0.0.1"}) {
+  for (const char* origin :
+       {"http://evil.com", "null", "https://127.0.0.1:8080", "http://localhost:8080",
+        "http://127.0.0.1:8081", "http://127.0.0.1:8080.evil.com", "http://127.0.0.1"}) {
     EXPECT_TRUE(gate.refusal("127.0.0.1:8080", origin)) << origin;
   }
 }

@@ -5,7 +5,7 @@ import { Server, eventually, sleep, stalledClient } from './support.mjs';
 
 let server;
 before(async () => (server = await Server.start()));
-after(() => server.kill());
+after(() => server.end());
 
 test('a stalled client is dropped and counted; the others have no gap', async () => {
   const good = [await server.stream(), await server.stream()];

@@ -36,9 +36,8 @@ class StaticFiles : public ::testing::Test {
 
  private:
   fs::path root_ =
-      fs::temp_directory_path() /
-      ("stagger_static_" + std::to_string(getpid()) + "_" +
-       ::testing::UnitTest::GetInstance()->current_test_info()->name());
+      fs::temp_directory_path() / ("stagger_static_" + std::to_string(getpid()) + "_" +
+                                   ::testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 TEST_F(StaticFiles, FindsFilesBelowTheFolder) {

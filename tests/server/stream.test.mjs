@@ -6,7 +6,7 @@ import { Server, eventually, within } from './support.mjs';
 
 let server;
 before(async () => (server = await Server.start()));
-after(() => server.kill());
+after(() => server.end());
 
 const withoutGaps = (data) => data.every((message, i) => i === 0 || message.seq === data[i - 1].seq + 1);
 

@@ -51,8 +51,8 @@ TEST(StreamJson, DataHoldsTheAskedChannelsToTheBit) {
   message.frame.joint_count = 1;
   message.frame.joint_position[0] = -1e-17;
   DataWriter writer;
-  const auto data = nlohmann::json::parse(
-      writer.text(message, std::make_shared<const Subscription>(wanted), 17));
+  const auto data =
+      nlohmann::json::parse(writer.text(message, std::make_shared<const Subscription>(wanted), 17));
   EXPECT_EQ(data["op"], "data");
   EXPECT_EQ(data["seq"], 17);
   EXPECT_EQ(data["tick"], 5230);
@@ -83,13 +83,13 @@ TEST(StreamJson, DataOfAllChannelsIsAsLongAsHelloSays) {
 TEST(StreamJson, WhatIsNotFiniteIsNull) {
   FrameMessage message;
   message.session = session();
-  message.frame.dcm = sim::Vec2(std::numeric_limits<double>::quiet_NaN(),
-                                std::numeric_limits<double>::infinity());
+  message.frame.dcm =
+      sim::Vec2(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity());
   Subscription wanted;
   wanted.channels = {"dcm"};
   DataWriter writer;
-  const auto data = nlohmann::json::parse(
-      writer.text(message, std::make_shared<const Subscription>(wanted), 0));
+  const auto data =
+      nlohmann::json::parse(writer.text(message, std::make_shared<const Subscription>(wanted), 0));
   EXPECT_TRUE(data["v"]["dcm"][0].is_null());
   EXPECT_TRUE(data["v"]["dcm"][1].is_null());
 }

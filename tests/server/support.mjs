@@ -51,7 +51,7 @@ export async function command(args, input = '') {
   }
 }
 
-/** A server of its own for a test: `await using` is too new, so end it with stop() or kill(). */
+/** A server of its own for a test: `await using` is too new, so end it with end() or kill(). */
 export class Server {
   static async start(...args) {
     const server = new Server();
@@ -137,6 +137,19 @@ export class Server {
   async kill() {
     this.child.kill('SIGKILL');
     await this.ended;
+    this.expectNoReports();
+  }
+  /** An orderly end, so that sanitizers get to say what they have seen. */
+  async end() {
+    try {
+      const { code, signal } = await this.stop();
+      if (code !== 0) throw new Error(`ended with ${code ?? signal}: ${this.stderr}`);
+    } finally {
+      await this.kill();
+    }
+  }
+  expectNoReports() {
+    if (/Sanitizer|runtime error:/.test(this.stderr)) throw new Error(this.stderr);
   }
 }
 

@@ -45,8 +45,7 @@ TEST(TrialJson, TheEndsOfTheRangesHold) {
   EXPECT_THAT(errors_of(R"({"robot":"a","walk":{"vy":0.31}})"), UnorderedElementsAre("/walk/vy"));
   EXPECT_THAT(errors_of(R"({"robot":"a","walk":{"wz":-0.51}})"), UnorderedElementsAre("/walk/wz"));
   EXPECT_THAT(errors_of(R"({"robot":"a","seed":1.5})"), UnorderedElementsAre("/seed"));
-  EXPECT_THAT(errors_of(R"({"robot":"a","seed":9007199254740994})"),
-              UnorderedElementsAre("/seed"));
+  EXPECT_THAT(errors_of(R"({"robot":"a","seed":9007199254740994})"), UnorderedElementsAre("/seed"));
 }
 
 TEST(TrialJson, AnEmptyListOfStrategiesSwitchesAllOff) {

@@ -10,9 +10,9 @@
 
 namespace stagger::server {
 
-/// Reads the body's fields. Throws Problem: 415 when it is not JSON by name, 400 when it is not JSON
-/// by content, 422 when a field is missing, unknown or out of range. `may_be_empty`: no body at all
-/// counts as {}.
+/// Reads the body's fields. Throws Problem: 415 when it is not JSON by name, 400 when it is not
+/// JSON by content, 422 when a field is missing, unknown or out of range. `may_be_empty`: no body
+/// at all counts as {}.
 void read_body(const HttpRequest& request, bool may_be_empty,
                const sim::JsonReader::Fields& fields);
 

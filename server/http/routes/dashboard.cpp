@@ -5,14 +5,12 @@
 namespace stagger::server {
 
 void add_dashboard_routes(Router& router, Services& services) {
-  router.set_fallback([&](const HttpRequest& request) {
-    return dashboard_response(services.web, request.path);
-  });
+  router.set_fallback(
+      [&](const HttpRequest& request) { return dashboard_response(services.web, request.path); });
   // Comes here only without a WebSocket handshake.
   router.add("GET", "/api/v1/stream", [](const HttpRequest&) -> HttpResponse {
-    Problem problem(426, "this is a WebSocket; see docs/stream.md");
-    problem.headers.emplace_back("Upgrade", "websocket");
-    throw problem;
+    throw Problem(426, "this is a WebSocket; see docs/stream.md")
+        .with_header("Upgrade", "websocket");
   });
 }
 

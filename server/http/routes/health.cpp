@@ -5,8 +5,9 @@
 namespace stagger::server {
 
 void add_health_routes(Router& router, Services& services) {
-  router.add("GET", "/health",
-             [](const HttpRequest&) { return json_response({{"status", "ok"}}); });
+  router.add("GET", "/health", [](const HttpRequest&) {
+    return json_response({{"status", "ok"}});
+  });
   router.add("GET", "/ready", [&](const HttpRequest&) {
     const SessionState state = services.session.state();
     if (!state.error.empty()) throw Problem(503, "the simulation broke down: " + state.error);

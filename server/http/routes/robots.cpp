@@ -10,8 +10,8 @@ namespace stagger::server {
 namespace {
 
 // A robot's folder may hold more than what viewers need.
-constexpr std::array served_extensions{".urdf", ".stl", ".dae", ".obj", ".mtl", ".png", ".jpg",
-                                       ".jpeg"};
+constexpr std::array served_extensions{".urdf", ".stl", ".dae", ".obj",
+                                       ".mtl",  ".png", ".jpg", ".jpeg"};
 
 std::shared_ptr<const sim::Robot> find(const HttpRequest& request, Services& services) {
   const std::string& name = request.parameters.at("name");

@@ -78,8 +78,8 @@ void add_simulation_routes(Router& router, Services& services) {
     read_body(request, true, [&ticks](sim::JsonReader& reader) {
       ticks = reader.integer_or("ticks", 1, sim::Range::between(1, LiveSession::max_step_ticks));
     });
-    return json_response(effect_json(
-        services.session.step(static_cast<std::uint64_t>(ticks), source_of(request))));
+    return json_response(
+        effect_json(services.session.step(static_cast<std::uint64_t>(ticks), source_of(request))));
   });
   router.add("POST", base + "/reset",
              [&](const HttpRequest& request) { return reset(request, services); });

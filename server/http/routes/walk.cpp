@@ -7,8 +7,7 @@ namespace stagger::server {
 void add_walk_routes(Router& router, Services& services) {
   router.add("POST", "/api/v1/walk", [&](const HttpRequest& request) {
     engine::WalkCommand command;
-    read_body(request, true,
-              [&command](sim::JsonReader& reader) { command = read_walk(reader); });
+    read_body(request, true, [&command](sim::JsonReader& reader) { command = read_walk(reader); });
     Json answer = effect_json(services.session.walk(command, source_of(request)));
     answer["walk"] = walk_json(command);
     return json_response(answer);
