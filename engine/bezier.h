@@ -30,4 +30,14 @@ CurvePoint<T> evaluate_bezier(std::array<T, Degree + 1> p, double s) {
   return point;
 }
 
+/// Control points of the part of the curve from s to 1, as a curve of its own over [0, 1].
+template <typename T, std::size_t Degree>
+std::array<T, Degree + 1> rest_of_bezier(std::array<T, Degree + 1> p, double s) {
+  for (std::size_t level = Degree; level > 0; --level) {
+    for (std::size_t i = 0; i < level; ++i) p[i] = (1.0 - s) * p[i] + s * p[i + 1];
+  }
+  // After the sweep p[0] is the point at s and p[i] the last point that level Degree - i left there.
+  return p;
+}
+
 }  // namespace stagger::engine

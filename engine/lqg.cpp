@@ -18,14 +18,26 @@ Eigen::RowVector3d design_feedback(const Parameters& p, const DiscreteLipm& lipm
   return lqr_gain<3, 1>(a, b, q, r);
 }
 
+/// Weight of the newest innovation in their average: about nine ticks count.
+constexpr double innovation_smoothing = 0.2;
+/// What a push may have done to the DCM: variance of 10 cm [m^2].
+constexpr double push_variance = 0.01;
+
 }  // namespace
 
-Lqg::Lqg(const Parameters& parameters)
-    : tick_(parameters.tick),
-      lipm_(discretise(natural_frequency(parameters), parameters.tick)),
-      feedback_(design_feedback(parameters, lipm_)),
-      estimator_(kalman_gain<2>(lipm_.a, parameters.process_noise * Eigen::Matrix2d::Identity(),
-                                parameters.measurement_noise * Eigen::Matrix2d::Identity())) {}
+Lqg::Lqg(const Parameters& p)
+    : tick_(p.tick),
+      lipm_(discretise(natural_frequency(p), p.tick)),
+      feedback_(design_feedback(p, lipm_)),
+      process_(p.process_noise),
+      measurement_(p.measurement_noise),
+      gate_(p.push_gate) {
+  const Eigen::Matrix2d unit = Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d process = process_ * unit;
+  const Eigen::Matrix2d measurement = measurement_ * unit;
+  covariance_ = solve_dare<2, 2>(lipm_.a.transpose(), unit, process, measurement);
+  settled_gain_ = covariance_ * (covariance_ + measurement).inverse();
+}
 
 void Lqg::estimate(const Vec2& com, const Vec2& dcm) {
   Eigen::Matrix2d measured;
@@ -34,24 +46,39 @@ void Lqg::estimate(const Vec2& com, const Vec2& dcm) {
   if (!started_) {
     state_ = measured;
     integral_.setZero();
+    innovation_.setZero();
     started_ = true;
     return;
   }
-  state_ += (estimator_ * (measured - state_)).eval();
+  const Eigen::Matrix2d unit = Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d spread = covariance_ + measurement_ * unit;
+  Eigen::Matrix2d innovation = measured - state_;
+  innovation_ += innovation_smoothing * (innovation - innovation_);
+  // An average of independent innovations has this part of their variance.
+  constexpr double share = innovation_smoothing / (2.0 - innovation_smoothing);
+  const double limit = gate_ * gate_ * share * spread(1, 1);
+  if (innovation_.row(1).squaredNorm() > limit) {
+    covariance_(1, 1) += push_variance;
+    innovation_.setZero();
+  }
+  const Eigen::Matrix2d gain = covariance_ * (covariance_ + measurement_ * unit).inverse();
+  state_ += (gain * innovation).eval();
+  covariance_ = (lipm_.a * (covariance_ - gain * covariance_) * lipm_.a.transpose()).eval();
+  covariance_.diagonal().array() += process_;
 }
 
-Vec2 Lqg::control(const LqgReference& reference, const SupportPolygon& polygon, bool act,
-                  bool integrate) {
+Vec2 Lqg::control(const LqgReference& reference, const ConvexPolygon& polygon, const Vec2& shift,
+                  bool act, bool integrate) {
   const Vec2 com_error = com() - reference.com;
   const Vec2 dcm_error = dcm() - reference.dcm;
   Vec2 wanted = reference.zmp;
   if (act) {
-    wanted -= feedback_(0) * com_error + feedback_(1) * dcm_error + feedback_(2) * integral_;
+    wanted -= feedback_(0) * com_error + feedback_(1) * dcm_error + feedback_(2) * integral_ + shift;
   }
   const Vec2 zmp = polygon.clamp(wanted);
   const bool clamped = (zmp - wanted).squaredNorm() > 0.0;
   if (act && integrate && !clamped) integral_ += tick_ * com_error;
-  state_ = (lipm_.a * state_ + lipm_.b * zmp.transpose()).eval();
+  state_ = (lipm_.a * state_ + lipm_.b * (zmp + shift).transpose()).eval();
   return zmp;
 }
 

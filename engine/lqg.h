@@ -3,7 +3,7 @@
 
 #include "engine/lipm.h"
 #include "engine/parameters.h"
-#include "engine/support_polygon.h"
+#include "engine/convex_polygon.h"
 
 namespace stagger::engine {
 
@@ -15,7 +15,9 @@ struct LqgReference {
 };
 
 /// Both axes at once; they share the gains. The estimator is fed with the clamped ZMP, so that it
-/// knows what the foot really did, and the integrator stops while the ZMP is clamped.
+/// knows what the foot really did, and the integrator stops while the ZMP is clamped. A push is not
+/// in its model: when the innovations, averaged over some ticks, say that there was one, it trusts
+/// the measurements again as if it had just begun, and settles anew.
 class Lqg {
  public:
   /// Throws std::invalid_argument when the weights have no stabilising gain.
@@ -27,21 +29,28 @@ class Lqg {
   /// Takes the measured CoM and DCM into the estimate. Call once a tick, before control().
   void estimate(const Vec2& com, const Vec2& dcm);
 
-  /// ZMP command inside the polygon, and the prediction for the next tick. `act` off leaves the
-  /// ZMP at its reference (the ankle strategy is switched off).
-  Vec2 control(const LqgReference& reference, const SupportPolygon& polygon, bool act,
-               bool integrate);
+  /// ZMP command inside the polygon, and the prediction for the next tick. `shift` of the effective
+  /// ZMP comes from the hips: the ankle need not do that part. `act` off leaves the ZMP at its
+  /// reference (the ankle strategy is switched off).
+  Vec2 control(const LqgReference& reference, const ConvexPolygon& polygon, const Vec2& shift,
+               bool act, bool integrate);
 
   Vec2 com() const { return state_.row(0); }
   Vec2 dcm() const { return state_.row(1); }
   const Eigen::RowVector3d& feedback_gain() const { return feedback_; }
-  const Eigen::Matrix2d& estimator_gain() const { return estimator_; }
+  /// Of the settled filter.
+  const Eigen::Matrix2d& estimator_gain() const { return settled_gain_; }
 
  private:
   double tick_;
   DiscreteLipm lipm_;
   Eigen::RowVector3d feedback_;  ///< of [CoM error, DCM error, integral of CoM error]
-  Eigen::Matrix2d estimator_;
+  double process_;
+  double measurement_;
+  double gate_;
+  Eigen::Matrix2d settled_gain_;
+  Eigen::Matrix2d covariance_;  ///< of the prediction, the same on both axes
+  Eigen::Matrix2d innovation_ = Eigen::Matrix2d::Zero();  ///< averaged; rows CoM, DCM
   Eigen::Matrix2d state_ = Eigen::Matrix2d::Zero();  ///< rows CoM, DCM; columns x, y
   Vec2 integral_ = Vec2::Zero();
   bool started_ = false;

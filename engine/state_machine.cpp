@@ -1,43 +1,34 @@
 #include "engine/state_machine.h"
 
+#include <algorithm>
+
 namespace stagger::engine {
 
 StateMachine::StateMachine(const Parameters& parameters)
-    : nominal_t_ss_(parameters.t_ss),
-      nominal_t_ds_(parameters.t_ds),
+    : nominal_{parameters.t_ss, parameters.t_ds},
       t_init_(parameters.t_init),
       patience_(parameters.landing_patience),
       t_ss_(parameters.t_ss),
       t_ds_(parameters.t_ds) {}
 
-void StateMachine::start() { walking_ = true; }
-
 void StateMachine::stop() {
-  if (!walking_) return;
-  walking_ = false;
-  switch (state_) {
-    case WalkingState::idle:
-    case WalkingState::initialize:
-      steps_left_ = 0;
-      break;
-    case WalkingState::single_support:
-      steps_left_ = 2;  // the swing under way was planned to go on from, not to stand on
-      break;
-    case WalkingState::double_support:
-      steps_left_ = 1;
-      break;
+  std::size_t needed = 0;
+  if (state_ == WalkingState::single_support) {
+    needed = 2;  // the swing under way was planned to go on from, not to stand on
+  } else if (state_ == WalkingState::double_support) {
+    needed = 1;
   }
+  steps_left_ = std::min(steps_left_, needed);
 }
 
 std::size_t StateMachine::steps_ahead() const {
-  if (walking_) return state_ == WalkingState::idle ? 0 : preview_steps;
-  return steps_left_;
+  return state_ == WalkingState::idle ? 0 : std::min(steps_left_, preview_steps);
 }
 
 void StateMachine::enter_single_support() {
   state_ = WalkingState::single_support;
-  t_ss_ = nominal_t_ss_;
-  t_ds_ = nominal_t_ds_;
+  t_ss_ = nominal_.t_ss;
+  t_ds_ = nominal_.t_ds;
 }
 
 Transition StateMachine::advance(const StateInputs& inputs) {
@@ -45,13 +36,13 @@ Transition StateMachine::advance(const StateInputs& inputs) {
   constexpr double rounding = 1e-9;
   switch (state_) {
     case WalkingState::idle:
-      if (!walking_) return Transition::none;
+      if (!walking()) return Transition::none;
       state_ = WalkingState::initialize;
       time_ = 0.0;
       return Transition::begin_shift;
 
     case WalkingState::initialize:
-      if (!walking_) {
+      if (!walking()) {
         state_ = WalkingState::idle;
         return Transition::stand;
       }
@@ -68,8 +59,8 @@ Transition StateMachine::advance(const StateInputs& inputs) {
       if (early || time_ > t_ss_ + rounding) t_ss_ = time_;  // the double support begins now
       state_ = WalkingState::double_support;
       ++landings_;
-      if (!walking_ && steps_left_ > 0) --steps_left_;
-      if (!walking_ && steps_left_ == 0) t_ds_ = t_init_;
+      if (steps_left_ != unlimited && steps_left_ > 0) --steps_left_;
+      if (steps_left_ == 0) t_ds_ = t_init_;
       return Transition::landing;
     }
 
@@ -77,7 +68,7 @@ Transition StateMachine::advance(const StateInputs& inputs) {
       if (time_ < t_ss_ + t_ds_ - rounding) return Transition::none;
       time_ -= t_ss_ + t_ds_;
       support_ = other(support_);
-      if (!walking_ && steps_left_ == 0) {
+      if (!walking()) {
         state_ = WalkingState::idle;
         return Transition::stand;
       }

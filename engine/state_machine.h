@@ -1,7 +1,7 @@
 // The paper's walking state machine (section III-A): which state, which foot, how long already.
 #pragma once
 
-#include "engine/parameters.h"
+#include "engine/step_timing.h"
 #include "engine/walking_targets.h"
 
 namespace stagger::engine {
@@ -20,8 +20,16 @@ class StateMachine {
  public:
   explicit StateMachine(const Parameters& parameters);
 
-  void start();  ///< walk from the next tick on
-  void stop();   ///< one whole step more, then stand on both feet
+  static constexpr std::size_t unlimited = static_cast<std::size_t>(-1);
+
+  /// Walk from the next tick on, for so many landings.
+  void start(std::size_t steps = unlimited) { steps_left_ = steps; }
+  /// One whole step more, then stand on both feet.
+  void stop();
+  /// Durations of the steps that begin from now on [s].
+  void set_times(const StepTimes& times) { nominal_ = times; }
+  /// Which foot stands first; only while idle.
+  void set_support_side(Side side) { support_ = side; }
 
   /// Looks whether the present state ends now. At most one transition a call: call again until it
   /// says none (a double support of no duration is entered and left within one tick).
@@ -30,6 +38,9 @@ class StateMachine {
   void pass(double dt) { time_ += dt; }
 
   WalkingState state() const { return state_; }
+  /// Adjusts the duration of the single support under way; not below the time that has passed.
+  void set_t_ss(double t_ss) { t_ss_ = t_ss > time_ ? t_ss : time_; }
+
   Side support_side() const { return support_; }
   double time() const { return time_; }
   double t_ss() const { return t_ss_; }
@@ -38,17 +49,16 @@ class StateMachine {
   double single_support_left() const { return time_ < t_ss_ ? t_ss_ - time_ : 0.0; }
   double double_support_left() const { return t_ss_ + t_ds_ - time_; }
   std::uint64_t landings() const { return landings_; }
-  bool walking() const { return walking_; }
+  bool walking() const { return steps_left_ > 0; }
   /// Steps still to be landed, the one under way included; never more than preview_steps.
   std::size_t steps_ahead() const;
-  /// The double support under way (or the next one, with one step ahead) ends in standing.
-  bool ends_standing() const { return !walking_ && steps_left_ <= preview_steps; }
+  /// The last of steps_ahead() (or the double support under way) ends in standing.
+  bool ends_standing() const { return steps_left_ <= preview_steps; }
 
  private:
   void enter_single_support();
 
-  double nominal_t_ss_;
-  double nominal_t_ds_;
+  StepTimes nominal_;
   double t_init_;
   double patience_;
   WalkingState state_ = WalkingState::idle;
@@ -57,8 +67,7 @@ class StateMachine {
   double t_ss_;
   double t_ds_;
   std::uint64_t landings_ = 0;
-  bool walking_ = false;
-  std::size_t steps_left_ = 0;  ///< until standing; meaningless while walking_
+  std::size_t steps_left_ = 0;  ///< landings until standing
 };
 
 }  // namespace stagger::engine

@@ -1,30 +1,51 @@
-// Where the next foot has to land so that the robot catches itself: eqs. (10) and (11), corrected.
+// Where and when the next foot has to land so that the robot catches itself: eqs. (10) to (13),
+// corrected. Printed, (10) mixes a foot-relative term with a world one, (11) has the wrong sign, and
+// (12) takes the logarithm of its own prediction, which leaves the time as it is.
 #pragma once
 
 #include "engine/parameters.h"
+#include "engine/reach.h"
 
 namespace stagger::engine {
 
-/// What the adjuster knows of the step under way. World frame.
-struct StepSituation {
-  Footstep stance;                    ///< f_i
-  Footstep planned;                   ///< f_{i+1}, from the footstep planner
-  Vec2 dcm = Vec2::Zero();            ///< estimated DCM now
-  Vec2 nominal_dcm = Vec2::Zero();    ///< DCM that the plan wants at touchdown
-  double time_left = 0.0;             ///< until touchdown [s]
-  double transfer = 1.0;              ///< gamma of the double support that follows
+/// The foothold that catches the DCM as a function of the time left until touchdown. World frame.
+///
+/// With the ZMP at the stance foot, zeta_TD = f_i + (zeta - f_i) e^{w tau}; the plan wants
+/// zeta_TD = f_i + gamma (f - f_i) + e^{-w Tds} b for a foothold f. Equate them:
+///   f(tau) = base + ray e^{w tau},  ray = (zeta - f_i) / gamma.
+struct CatchingLine {
+  Vec2 base = Vec2::Zero();
+  Vec2 ray = Vec2::Zero();
+
+  Vec2 foothold(double growth) const { return base + growth * ray; }  ///< growth = e^{w tau}
 };
+
+/// What the adjusters know of the step under way. World frame.
+struct StepSituation {
+  Footstep stance;                  ///< f_i
+  Footstep planned;                 ///< f_{i+1}, from the footstep planner
+  Vec2 dcm = Vec2::Zero();          ///< estimated DCM now
+  Vec2 nominal_dcm = Vec2::Zero();  ///< DCM that the plan wants at touchdown for `planned`
+  double transfer = 1.0;            ///< gamma of the double support that follows
+};
+
+CatchingLine catching_line(const StepSituation& situation);
 
 struct StepAdjustment {
-  Footstep step;                      ///< the step to take
-  Vec2 error = Vec2::Zero();          ///< Delta_f: how far the plan is from catching the DCM [m]
-  bool adjusted = false;              ///< error beyond the compliance margin
+  Footstep step;              ///< the step to take
+  Vec2 error = Vec2::Zero();  ///< Delta_f: how far the plan is from catching the DCM [m]
+  bool adjusted = false;      ///< error beyond the compliance margin
 };
 
-/// Delta_f = (zeta_TD - zeta_TD*) / gamma with zeta_TD = f_i + (zeta - f_i) e^{w tau}; the step goes
-/// to f_{i+1} + k_sa Delta_f, always from the plan (nothing accumulates), clamped to what the leg
-/// reaches. Printed, (10) mixes a foot-relative term with a world one and (11) has the wrong sign.
-StepAdjustment adjust_step(const StepSituation& situation, double omega,
-                           const Parameters& parameters);
+/// (10'), (11'): f_{i+1} + k_sa Delta_f, always from the plan (nothing accumulates), clamped to what
+/// the leg reaches. `time_left` until touchdown [s].
+StepAdjustment adjust_step(const StepSituation& situation, double time_left, double omega,
+                           const ReachRegion& reach, const Parameters& parameters);
+
+/// (12'): time left until touchdown, in [earliest, latest], at which a reachable foothold catches
+/// the DCM: the nominal one if that does, else the nearest that does, else the one with the least
+/// distance between the catching foothold and the reachable region.
+double adjust_time(const StepSituation& situation, double nominal, double earliest, double latest,
+                   double omega, const ReachRegion& reach);
 
 }  // namespace stagger::engine

@@ -1,5 +1,7 @@
 #include "engine/walking_engine.h"
 
+#include <algorithm>
+#include <limits>
 #include <numbers>
 
 #include "engine/footstep_planner.h"
@@ -14,28 +16,66 @@ Footstep footstep(const FootPose& pose, Side side) {
 }  // namespace
 
 WalkingEngine::WalkingEngine(const Parameters& parameters, const Measurement& start)
+    : WalkingEngine(parameters, start, ReachRegion(parameters)) {}
+
+WalkingEngine::WalkingEngine(const Parameters& parameters, const Measurement& start,
+                             const ReachRegion& reach)
     : parameters_(parameters),
       omega_(natural_frequency(parameters)),
       sole_{parameters.foot_half_length - parameters.sole_margin,
             parameters.foot_half_width - parameters.sole_margin},
+      reach_(reach),
       machine_(parameters),
       lqg_(parameters),
+      hip_(parameters.hip, parameters.mass * parameters.gravity, omega_, parameters.tick),
+      times_(step_times({}, parameters)),
       standing_(start.feet),
       com_reference_(start.com.head<2>()) {
   stance_ = footstep(start.feet[index(Side::left)], Side::left);
   landed_ = footstep(start.feet[index(Side::right)], Side::right);
   planned_ = landed_;
   swing_goal_ = landed_;
+  polygon_ = engine::support_polygon(sole_, start.feet[0], start.feet[1]);
 }
 
 void WalkingEngine::walk(const WalkCommand& command) {
   command_ = command;
+  times_ = step_times(command, parameters_);
+  machine_.set_times(times_);
   machine_.start();
+  list_size_ = list_next_ = 0;
 }
 
 void WalkingEngine::stop() {
   command_ = WalkCommand();
+  times_ = step_times(command_, parameters_);
+  machine_.set_times(times_);
   machine_.stop();
+  list_size_ = list_next_ = 0;
+}
+
+WalkingEngine::StepListError WalkingEngine::follow(std::span<const Footstep> steps) {
+  if (machine_.state() != WalkingState::idle) return StepListError::walking;
+  if (steps.size() > max_listed_steps) return StepListError::too_long;
+  if (steps.empty()) return StepListError::none;
+  // The first step starts from the other foot, wherever that stands now.
+  Footstep from = stance_.side == steps[0].side ? landed_ : stance_;
+  for (const Footstep& step : steps) {
+    if (step.side == from.side) return StepListError::wrong_side;
+    if ((reach_.clamp(from, step.position) - step.position).norm() > 1e-9) {
+      return StepListError::out_of_reach;
+    }
+    from = step;
+  }
+  std::copy(steps.begin(), steps.end(), list_.begin());
+  list_size_ = steps.size();
+  list_next_ = 0;
+  command_ = WalkCommand();
+  times_ = step_times(command_, parameters_);
+  machine_.set_times(times_);
+  machine_.set_support_side(other(steps[0].side));
+  machine_.start(steps.size());
+  return StepListError::none;
 }
 
 Vec2 WalkingEngine::middle() const { return 0.5 * (stance_.position + landed_.position); }
@@ -61,22 +101,23 @@ const WalkingTargets& WalkingEngine::update(const Measurement& measurement) {
   }
 
   const bool single = machine_.state() == WalkingState::single_support;
-  plan_steps(machine_.state() == WalkingState::double_support ? landed_ : stance_);
+  plan_steps(machine_.state() == WalkingState::double_support ? landed_ : stance_, 0);
   planned_ = step_count_ > 0 ? steps_[0] : landed_;
   plan_reference();
   adjusting_ = false;
   if (single) {
+    polygon_ = engine::support_polygon(sole_, measurement.feet[index(stance_.side)]);
     adjust();
     move_swing_foot();
-    polygon_ = SupportPolygon(sole_, measurement.feet[index(stance_.side)]);
   } else {
-    polygon_ = SupportPolygon(sole_, measurement.feet[0], measurement.feet[1]);
+    polygon_ = engine::support_polygon(sole_, measurement.feet[0], measurement.feet[1]);
   }
+  use_hip();
 
   const LqgReference reference{com_reference_, plan_.dcm(), plan_.zmp()};
   publish(reference);
-  targets_.zmp_command =
-      lqg_.control(reference, polygon_, parameters_.strategies.ankle, !adjusting_);
+  targets_.zmp_command = lqg_.control(reference, polygon_, targets_.zmp_shift,
+                                      parameters_.strategies.ankle, !adjusting_);
   com_reference_ = plan_.advance_com(com_reference_, parameters_.tick, omega_);
   machine_.pass(parameters_.tick);
   return targets_;
@@ -89,32 +130,25 @@ void WalkingEngine::react(Transition transition, const Measurement& measurement)
   switch (transition) {
     case Transition::none:
       break;
-    case Transition::begin_shift: {
+    case Transition::begin_shift:
       standing_ = measurement.feet;
       stance_ = measured(machine_.support_side());
       landed_ = measured(other(stance_.side));
-      plan_steps(stance_);
-      const Vec2 away = steps_[0].position - stance_.position;
-      const Vec2 back = steps_[1].position - steps_[0].position;
-      const Vec2 offset =
-          periodic_dcm_offset(away, back, parameters_.t_ss, parameters_.t_ds, omega_);
-      initial_zmp_ = initial_zmp(lqg_.dcm(), stance_.position, stance_.position + offset,
-                                 parameters_.t_init, omega_);
-      com_reference_ = lqg_.com();
+      begin_shift();
       break;
-    }
-    case Transition::lift_off: {
+    case Transition::lift_off:
       stance_ = measured(machine_.support_side());
       standing_ = measurement.feet;
-      plan_steps(stance_);
+      nominal_t_ss_ = machine_.t_ss();
+      plan_steps(stance_, 0);
       swing_goal_ = steps_[0];
       swing_.start(standing_[index(swing_goal_.side)], landing_pose(swing_goal_),
                    machine_.t_ss() - machine_.time(), parameters_.swing_height);
       break;
-    }
     case Transition::landing:
       landed_ = measured(other(machine_.support_side()));
       standing_[index(landed_.side)] = measurement.feet[index(landed_.side)];
+      if (list_next_ < list_size_) ++list_next_;
       break;
     case Transition::stand:
       stance_ = measured(machine_.support_side());
@@ -124,12 +158,26 @@ void WalkingEngine::react(Transition transition, const Measurement& measurement)
   }
 }
 
-void WalkingEngine::plan_steps(const Footstep& first_stance) {
+void WalkingEngine::begin_shift() {
+  plan_steps(stance_, 0);
+  // The plan from the first single support on tells where the DCM has to be by then.
+  initial_zmp_ = stance_.position;
+  plan_reference();
+  initial_zmp_ = initial_zmp(lqg_.dcm(), stance_.position, plan_.dcm_at_end(0), parameters_.t_init,
+                             omega_);
+  com_reference_ = lqg_.com();
+}
+
+Footstep WalkingEngine::step_after(const Footstep& stance) const {
+  return next_footstep(stance, command_, times_.step(), parameters_.stance_width, reach_);
+}
+
+void WalkingEngine::plan_steps(const Footstep& first_stance, std::size_t first) {
   step_count_ = machine_.steps_ahead();
-  const double step_time = parameters_.t_ss + parameters_.t_ds;
   Footstep from = first_stance;
-  for (std::size_t i = 0; i < step_count_; ++i) {
-    steps_[i] = next_footstep(from, command_, step_time, parameters_);
+  for (std::size_t i = first; i < step_count_; ++i) {
+    const std::size_t listed = list_next_ + i;
+    steps_[i] = listed < list_size_ ? list_[listed] : step_after(from);
     from = steps_[i];
   }
 }
@@ -148,7 +196,7 @@ void WalkingEngine::plan_reference() {
     const double share = machine_.time() / parameters_.t_init;
     const Vec2 now = initial_zmp_ + share * (stance_.position - initial_zmp_);
     plan_.add({parameters_.t_init - machine_.time(), now, stance_.position});
-    plan_.add({parameters_.t_ss, stance_.position, stance_.position});
+    plan_.add({times_.t_ss, stance_.position, stance_.position});
   } else if (machine_.state() == WalkingState::single_support) {
     plan_.add({machine_.single_support_left(), stance_.position, stance_.position});
   } else {
@@ -162,7 +210,7 @@ void WalkingEngine::plan_reference() {
       plan_.solve(goal, omega_);
       return;
     }
-    plan_.add({parameters_.t_ss, landed_.position, landed_.position});
+    plan_.add({times_.t_ss, landed_.position, landed_.position});
     from = landed_;
   }
 
@@ -175,54 +223,109 @@ void WalkingEngine::plan_reference() {
       plan_.solve(goal, omega_);
       return;
     }
-    plan_.add({parameters_.t_ds, from.position, to.position});
-    if (!last) plan_.add({parameters_.t_ss, to.position, to.position});
+    plan_.add({times_.t_ds, from.position, to.position});
+    if (!last) plan_.add({times_.t_ss, to.position, to.position});
     from = to;
   }
   // Beyond the preview the gait is taken to go on for ever as it is.
-  const double step_time = parameters_.t_ss + parameters_.t_ds;
-  const Footstep next = next_footstep(from, command_, step_time, parameters_);
-  const Footstep after = next_footstep(next, command_, step_time, parameters_);
+  const Footstep next = step_after(from);
+  const Footstep after = step_after(next);
   plan_.solve(from.position + periodic_dcm_offset(next.position - from.position,
-                                                  after.position - next.position, parameters_.t_ss,
-                                                  parameters_.t_ds, omega_),
+                                                  after.position - next.position, times_.t_ss,
+                                                  times_.t_ds, omega_),
               omega_);
 }
 
+StepSituation WalkingEngine::situation(const Footstep& next) const {
+  return {stance_, next, lqg_.dcm(), plan_.dcm_at_end(0),
+          transfer_factor(machine_.t_ds(), omega_)};
+}
+
 void WalkingEngine::adjust() {
-  const double left = machine_.single_support_left();
-  Footstep goal = swing_goal_;
-  if (left > parameters_.step_freeze) {
-    goal = steps_[0];
+  if (machine_.single_support_left() <= parameters_.step_freeze) {
+    steps_[0] = swing_goal_;
+  } else {
+    const StepSituation now = situation(planned_);
+    if (parameters_.strategies.time) {
+      const double passed = machine_.time();
+      const double earliest =
+          std::max({nominal_t_ss_ - parameters_.time_limit, parameters_.least_t_ss,
+                    passed + parameters_.step_freeze});
+      const double latest = std::max(nominal_t_ss_ + parameters_.time_limit, earliest);
+      const double nominal = std::clamp(nominal_t_ss_, earliest, latest);
+      double wanted = nominal;
+      const StepAdjustment unhurried =
+          adjust_step(now, nominal - passed, omega_, reach_, parameters_);
+      if (unhurried.adjusted && parameters_.strategies.step) {
+        wanted = passed + adjust_time(now, nominal - passed, earliest - passed, latest - passed,
+                                      omega_, reach_);  // (12')
+      }
+      // (13'), about the nominal time: nothing accumulates.
+      const double share = -std::expm1(-parameters_.tick / parameters_.time_constant);
+      machine_.set_t_ss(machine_.t_ss() + share * (wanted - machine_.t_ss()));
+    }
     if (parameters_.strategies.step) {
-      const StepSituation situation{stance_,
-                                    steps_[0],
-                                    lqg_.dcm(),
-                                    plan_.dcm_at_end(0),
-                                    left,
-                                    transfer_factor(parameters_.t_ds, omega_)};
-      const StepAdjustment adjustment = adjust_step(situation, omega_, parameters_);
-      goal = adjustment.step;
+      const StepAdjustment adjustment =
+          adjust_step(now, machine_.single_support_left(), omega_, reach_, parameters_);
+      steps_[0] = adjustment.step;
       adjusting_ = adjustment.adjusted;
     }
   }
   // The plan has to be of the step that is really taken: then the reference meets the DCM.
-  if (goal.position != steps_[0].position) {
-    const double step_time = parameters_.t_ss + parameters_.t_ds;
-    steps_[0] = goal;
-    for (std::size_t i = 1; i < step_count_; ++i) {
-      steps_[i] = next_footstep(steps_[i - 1], command_, step_time, parameters_);
-    }
-    plan_reference();
-  }
+  plan_steps(steps_[0], 1);
+  plan_reference();
 }
 
 void WalkingEngine::move_swing_foot() {
-  const Footstep& goal = steps_[0];
-  if (goal.position != swing_goal_.position || goal.yaw != swing_goal_.yaw) {
-    swing_.retarget(landing_pose(goal), machine_.time(), machine_.t_ss());
+  Footstep& goal = steps_[0];
+  const double time = machine_.time();
+  const double left = machine_.single_support_left();
+  // A foot that comes to rest in the time left is at its fastest 15/8 of its mean speed.
+  const Vec2 here = swing_.at(time).position.head<2>();
+  const Vec2 way = goal.position - here;
+  const double most = parameters_.swing_speed * left / 1.875;
+  if (way.norm() > most) goal.position = here + way * (most / way.norm());
+  if (goal.position != swing_goal_.position || goal.yaw != swing_goal_.yaw ||
+      machine_.t_ss() != swing_.duration()) {
+    swing_.retarget(landing_pose(goal), time, machine_.t_ss());
     swing_goal_ = goal;
   }
+}
+
+void WalkingEngine::use_hip() {
+  if (parameters_.hip.torque <= 0.0) return;
+  // Axes of the stance foot.
+  const double yaw = stance_.yaw;
+  constexpr double far_inside = -1.0;
+  std::array<Excess, 2> excess{Excess{far_inside, far_inside}, Excess{far_inside, far_inside}};
+  const auto measure = [&](const Vec2& point, const ConvexPolygon& area, const Vec2& origin,
+                           double area_yaw, double scale) {
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const auto i = static_cast<Eigen::Index>(axis);
+      double low = std::numeric_limits<double>::infinity();
+      double high = -low;
+      for (std::size_t v = 0; v < area.size(); ++v) {
+        const double x = rotated(area.vertex(v) - origin, -area_yaw)[i];
+        low = std::min(low, x);
+        high = std::max(high, x);
+      }
+      const double x = rotated(point - origin, -area_yaw)[i];
+      excess[axis] = {(x - high) * scale, (low - x) * scale};
+    }
+  };
+  const bool single = machine_.state() == WalkingState::single_support;
+  if (single && parameters_.strategies.step) {
+    const double growth = std::exp(omega_ * machine_.single_support_left());
+    const StepSituation now = situation(steps_[0]);
+    const Vec2 foothold = catching_line(now).foothold(growth);
+    const Vec2 local = rotated(foothold - stance_.position, -yaw);
+    measure(local, reach_.polygon(stance_.side), Vec2::Zero(), 0.0, now.transfer / growth);
+  } else if (single || machine_.state() == WalkingState::idle) {
+    measure(lqg_.dcm(), polygon_, stance_.position, yaw, 1.0);
+  }
+  hip_.update(excess, polygon_.margin(targets_.zmp_command), parameters_.strategies.hip);
+  targets_.zmp_shift = rotated(hip_.zmp_shift(), yaw);
+  targets_.hip_angle = hip_.angle();
 }
 
 void WalkingEngine::publish(const LqgReference& reference) {

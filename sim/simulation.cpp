@@ -15,7 +15,7 @@ namespace {
 std::unique_ptr<Plant> make_plant(const SimulationConfig& config) {
   if (!config.robot) throw std::invalid_argument("a simulation needs a robot");
   if (config.plant == PlantKind::lipm) {
-    return std::make_unique<LipmPlant>(*config.robot, Simulation::tick_s);
+    return std::make_unique<LipmPlant>(lipm_parameters(*config.robot), Simulation::tick_s);
   }
   return std::make_unique<FullBodyPlant>(config.robot, Simulation::tick_s);
 }
@@ -117,7 +117,7 @@ void Simulation::fill_frame(const engine::WalkingTargets& targets) {
   frame_.adjusted_step = targets.adjusted_step;
   frame_.preview = targets.preview;
   frame_.preview_count = targets.preview_count;
-  const engine::SupportPolygon& polygon = engine_.support_polygon();
+  const engine::ConvexPolygon& polygon = engine_.support_polygon();
   frame_.support_polygon_count = polygon.size();
   for (std::size_t i = 0; i < polygon.size(); ++i) frame_.support_polygon[i] = polygon.vertex(i);
   frame_.fallen = !fall_reason_.empty();

@@ -29,7 +29,7 @@ BENCHMARK_CAPTURE(simulation_tick, bullet, PlantKind::bullet);
 BENCHMARK_CAPTURE(simulation_tick, lipm, PlantKind::lipm);
 
 void engine_tick(benchmark::State& state) {
-  LipmPlant plant(*kasaei(), Simulation::tick_s);
+  LipmPlant plant(lipm_parameters(*kasaei()), Simulation::tick_s);
   engine::WalkingEngine engine(
       engine_parameters(*kasaei(), PlantKind::lipm, {}, Simulation::tick_s), plant.measurement());
   engine.walk({});

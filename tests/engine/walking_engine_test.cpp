@@ -154,7 +154,7 @@ TEST(WalkingEngine, TakesPushesInEveryDirectionByStepping) {
 TEST(WalkingEngine, WithoutStepsThatPushIsTooMuch) {
   Walk walk;
   Strategies ankle_only;
-  ankle_only.step = false;
+  ankle_only.step = ankle_only.time = false;
   walk.engine().set_strategies(ankle_only);
   walk.engine().walk({});
   walk.run(4.17);

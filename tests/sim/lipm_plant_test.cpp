@@ -8,7 +8,7 @@ namespace {
 class LipmPlantTest : public ::testing::Test {
  protected:
   std::shared_ptr<const Robot> robot = load_robot("robots/kasaei");
-  LipmPlant plant{*robot, 0.001};
+  LipmPlant plant{lipm_parameters(*robot), 0.001};
   engine::WalkingTargets standing;  // both feet down, ZMP in the middle
 };
 

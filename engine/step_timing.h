@@ -1,0 +1,18 @@
+// How long a step takes: the durations that belong to a commanded velocity.
+#pragma once
+
+#include "engine/parameters.h"
+
+namespace stagger::engine {
+
+struct StepTimes {
+  double t_ss = 0.0;  ///< single support [s]
+  double t_ds = 0.0;  ///< double support [s]
+  double step() const { return t_ss + t_ds; }
+};
+
+/// The parameters' durations as long as the steps stay comfortably short; a faster walk takes quicker
+/// steps, down to least_t_ss, before it takes longer ones.
+StepTimes step_times(const WalkCommand& command, const Parameters& parameters);
+
+}  // namespace stagger::engine
