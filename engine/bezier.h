@@ -36,7 +36,8 @@ std::array<T, Degree + 1> rest_of_bezier(std::array<T, Degree + 1> p, double s) 
   for (std::size_t level = Degree; level > 0; --level) {
     for (std::size_t i = 0; i < level; ++i) p[i] = (1.0 - s) * p[i] + s * p[i + 1];
   }
-  // After the sweep p[0] is the point at s and p[i] the last point that level Degree - i left there.
+  // After the sweep p[0] is the point at s and p[i] the last point that level Degree - i left
+  // there.
   return p;
 }
 

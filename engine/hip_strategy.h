@@ -5,17 +5,17 @@
 
 namespace stagger::engine {
 
-/// How far the DCM is beyond what feet and steps can bring back, towards plus and minus on one axis;
-/// negative while it is within [m].
+/// How far the DCM is beyond what feet and steps can bring back, towards plus and minus on one
+/// axis; negative while it is within [m].
 struct Excess {
   double plus = 0.0;
   double minus = 0.0;
 };
 
-/// A flywheel at the CoM for each axis: a torque tau on the wheel acts on the CoM like a ZMP that is
-/// tau / (m g) farther out (Pratt et al. 2006, "Capture point"). Bang-bang: full torque while the DCM
-/// would otherwise be lost, full braking in time to stop inside the angle limit, and a slow return to
-/// upright with what the ankle has to spare. From rest it saves an excess of less than
+/// A flywheel at the CoM for each axis: a torque tau on the wheel acts on the CoM like a ZMP that
+/// is tau / (m g) farther out (Pratt et al. 2006, "Capture point"). Bang-bang: full torque while
+/// the DCM would otherwise be lost, full braking in time to stop inside the angle limit, and a slow
+/// return to upright with what the ankle has to spare. From rest it saves an excess of less than
 /// tau / (m g) (1 - e^{-w T1})^2, T1 = sqrt(J theta_max / tau); nothing saves more.
 class HipStrategy {
  public:

@@ -11,8 +11,8 @@ struct ZmpSegment {
   Vec2 start = Vec2::Zero();
   Vec2 end = Vec2::Zero();
 
-  Vec2 velocity() const;             ///< m [m/s]; zero for a segment of no duration
-  Vec2 zmp(double tau) const;        ///< p(tau), tau in [0, duration]
+  Vec2 velocity() const;       ///< m [m/s]; zero for a segment of no duration
+  Vec2 zmp(double tau) const;  ///< p(tau), tau in [0, duration]
 };
 
 /// DCM at `tau` of a segment that is to end at `dcm_end`: zeta = p + m/w + (zeta_b - p_b - m/w)

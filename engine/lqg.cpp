@@ -1,5 +1,7 @@
 #include "engine/lqg.h"
 
+#include <Eigen/LU>
+
 #include "engine/riccati.h"
 
 namespace stagger::engine {
@@ -15,7 +17,7 @@ Eigen::RowVector3d design_feedback(const Parameters& p, const DiscreteLipm& lipm
   b << lipm.b, 0.0;
   const Eigen::Matrix3d q = (p.lqr_state_weight * p.tick).asDiagonal();
   const Eigen::Matrix<double, 1, 1> r(p.lqr_zmp_weight * p.tick);
-  return lqr_gain<3, 1>(a, b, q, r);
+  return lqr_gain(a, b, q, r);
 }
 
 /// Weight of the newest innovation in their average: about nine ticks count.
@@ -35,7 +37,7 @@ Lqg::Lqg(const Parameters& p)
   const Eigen::Matrix2d unit = Eigen::Matrix2d::Identity();
   const Eigen::Matrix2d process = process_ * unit;
   const Eigen::Matrix2d measurement = measurement_ * unit;
-  covariance_ = solve_dare<2, 2>(lipm_.a.transpose(), unit, process, measurement);
+  covariance_ = solve_dare(lipm_.a.transpose(), unit, process, measurement);
   settled_gain_ = covariance_ * (covariance_ + measurement).inverse();
 }
 
@@ -73,7 +75,8 @@ Vec2 Lqg::control(const LqgReference& reference, const ConvexPolygon& polygon, c
   const Vec2 dcm_error = dcm() - reference.dcm;
   Vec2 wanted = reference.zmp;
   if (act) {
-    wanted -= feedback_(0) * com_error + feedback_(1) * dcm_error + feedback_(2) * integral_ + shift;
+    wanted -=
+        feedback_(0) * com_error + feedback_(1) * dcm_error + feedback_(2) * integral_ + shift;
   }
   const Vec2 zmp = polygon.clamp(wanted);
   const bool clamped = (zmp - wanted).squaredNorm() > 0.0;

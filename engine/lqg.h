@@ -1,9 +1,9 @@
 // The low-level controller: Kalman filter, integrator and state feedback on the LIPM, eqs. (5)-(8).
 #pragma once
 
+#include "engine/convex_polygon.h"
 #include "engine/lipm.h"
 #include "engine/parameters.h"
-#include "engine/convex_polygon.h"
 
 namespace stagger::engine {
 
@@ -51,7 +51,7 @@ class Lqg {
   Eigen::Matrix2d settled_gain_;
   Eigen::Matrix2d covariance_;  ///< of the prediction, the same on both axes
   Eigen::Matrix2d innovation_ = Eigen::Matrix2d::Zero();  ///< averaged; rows CoM, DCM
-  Eigen::Matrix2d state_ = Eigen::Matrix2d::Zero();  ///< rows CoM, DCM; columns x, y
+  Eigen::Matrix2d state_ = Eigen::Matrix2d::Zero();       ///< rows CoM, DCM; columns x, y
   Vec2 integral_ = Vec2::Zero();
   bool started_ = false;
 };

@@ -9,9 +9,9 @@ namespace stagger::engine {
 struct Measurement {
   Vec3 com = Vec3::Zero();           ///< centre of mass [m]
   Vec3 com_velocity = Vec3::Zero();  ///< velocity of the centre of mass [m/s]
-  Vec2 zmp = Vec2::Zero();           ///< zero moment point on the ground [m]; kept while no foot loads
-  PerFoot<FootPose> feet;            ///< pose of each sole
-  PerFoot<double> foot_load{};       ///< normal force under each foot [N]
+  Vec2 zmp = Vec2::Zero();      ///< zero moment point on the ground [m]; kept while no foot loads
+  PerFoot<FootPose> feet;       ///< pose of each sole
+  PerFoot<double> foot_load{};  ///< normal force under each foot [N]
 };
 
 }  // namespace stagger::engine

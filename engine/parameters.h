@@ -23,10 +23,10 @@ struct WalkCommand {
 
 /// Flywheel that stands for the upper body. No torque: no hip strategy.
 struct HipParameters {
-  double torque = 0.0;    ///< greatest torque [N m]
-  double inertia = 1.0;   ///< [kg m^2]
-  double angle = 0.5;     ///< greatest lean [rad]
-  double rate = 1e9;      ///< greatest angular velocity [rad/s]
+  double torque = 0.0;   ///< greatest torque [N m]
+  double inertia = 1.0;  ///< [kg m^2]
+  double angle = 0.5;    ///< greatest lean [rad]
+  double rate = 1e9;     ///< greatest angular velocity [rad/s]
 };
 
 /// Defaults are the recommended set for the paper's robot on the LIPM (30 kg, CoM at 1 m).
@@ -36,31 +36,32 @@ struct Parameters {
   double com_height = 1.0;  ///< z_c [m]
   double mass = 30.0;       ///< [kg]
 
-  double t_ss = 0.8;          ///< single support duration [s]
-  double t_ds = 0.2;          ///< double support duration, 0 allowed [s]
-  double t_init = 1.0;        ///< Initialize: weight shift before the first step [s]
-  double stance_width = 0.2;  ///< lateral distance of the feet [m]
+  double t_ss = 0.8;           ///< single support duration [s]
+  double t_ds = 0.2;           ///< double support duration, 0 allowed [s]
+  double t_init = 1.0;         ///< Initialize: weight shift before the first step [s]
+  double stance_width = 0.2;   ///< lateral distance of the feet [m]
   double swing_height = 0.04;  ///< z_s [m]
 
   double foot_half_length = 0.075;  ///< [m]
   double foot_half_width = 0.0375;  ///< [m]
-  double sole_margin = 0.0;         ///< kept free inside the sole's edge when the ZMP is clamped [m]
+  double sole_margin = 0.0;  ///< kept free inside the sole's edge when the ZMP is clamped [m]
 
-  double max_step_length = 0.95;    ///< |x| of a step in the stance foot's frame [m]
-  double min_step_width = 0.10;     ///< least lateral distance of the feet, no crossing [m]
-  double max_step_width = 0.60;     ///< greatest lateral distance of the feet [m]
+  double max_step_length = 0.95;  ///< |x| of a step in the stance foot's frame [m]
+  double min_step_width = 0.10;   ///< least lateral distance of the feet, no crossing [m]
+  double max_step_width = 0.60;   ///< greatest lateral distance of the feet [m]
 
-  // LQG weights, scaled by the control period: diag(CoM error, DCM error, integral of CoM error), ZMP.
+  // LQG weights, scaled by the control period: diag(CoM error, DCM error, integral of CoM error),
+  // ZMP.
   Vec3 lqr_state_weight{1.0, 100.0, 1.0};
   double lqr_zmp_weight = 10.0;
   double process_noise = 1e-6;         ///< variance of [c, dcm] a tick [m^2]
   double measurement_noise = 6.25e-4;  ///< variance of the measured c and dcm [m^2]
   double push_gate = 5.0;  ///< innovations beyond this many standard deviations are a push
 
-  double step_gain = 1.0;       ///< k_sa of eq. (11)
-  double step_margin = 0.10;    ///< compliance margin on |Delta_f| [m]
-  double step_freeze = 0.06;    ///< place and time stay as they are in the last part of the swing [s]
-  double time_limit = 0.2;      ///< |adjusted - nominal| single support duration [s]
+  double step_gain = 1.0;     ///< k_sa of eq. (11)
+  double step_margin = 0.10;  ///< compliance margin on |Delta_f| [m]
+  double step_freeze = 0.06;  ///< place and time stay as they are in the last part of the swing [s]
+  double time_limit = 0.2;    ///< |adjusted - nominal| single support duration [s]
   double time_constant = 0.04;  ///< of the lag filter of eq. (13): k_f = tick / time_constant [s]
   double least_t_ss = 0.15;     ///< no single support is adjusted to less [s]
   double swing_speed = 1e9;     ///< greatest speed of the swing foot [m/s]
@@ -73,8 +74,6 @@ struct Parameters {
 };
 
 /// sqrt((g + zdd) / z_c) with zdd = 0: natural frequency of the LIPM [1/s]; eq. (2).
-inline double natural_frequency(const Parameters& p) {
-  return std::sqrt(p.gravity / p.com_height);
-}
+inline double natural_frequency(const Parameters& p) { return std::sqrt(p.gravity / p.com_height); }
 
 }  // namespace stagger::engine

@@ -4,10 +4,9 @@ namespace stagger::engine {
 namespace {
 
 ConvexPolygon box(const Parameters& p) {
-  const std::array<Vec2, 4> corners{Vec2(-p.max_step_length, -p.max_step_width),
-                                    Vec2(p.max_step_length, -p.max_step_width),
-                                    Vec2(p.max_step_length, -p.min_step_width),
-                                    Vec2(-p.max_step_length, -p.min_step_width)};
+  const std::array<Vec2, 4> corners{
+      Vec2(-p.max_step_length, -p.max_step_width), Vec2(p.max_step_length, -p.max_step_width),
+      Vec2(p.max_step_length, -p.min_step_width), Vec2(-p.max_step_length, -p.min_step_width)};
   return ConvexPolygon(corners);
 }
 

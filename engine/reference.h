@@ -28,7 +28,8 @@ class DcmPlan {
 
  private:
   std::array<ZmpSegment, capacity> segments_;
-  std::array<Vec2, capacity + 1> dcm_;  ///< at the start of each segment, and at the end of the last
+  std::array<Vec2, capacity + 1>
+      dcm_;  ///< at the start of each segment, and at the end of the last
   std::size_t count_ = 0;
 };
 

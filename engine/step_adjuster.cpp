@@ -6,8 +6,8 @@ namespace stagger::engine {
 
 CatchingLine catching_line(const StepSituation& s) {
   // e^{-w Tds} b, told by what the plan wants at touchdown.
-  const Vec2 offset = s.nominal_dcm - s.stance.position -
-                      s.transfer * (s.planned.position - s.stance.position);
+  const Vec2 offset =
+      s.nominal_dcm - s.stance.position - s.transfer * (s.planned.position - s.stance.position);
   return {s.stance.position - offset / s.transfer, (s.dcm - s.stance.position) / s.transfer};
 }
 
@@ -33,8 +33,8 @@ double adjust_time(const StepSituation& situation, double nominal, double earlie
   const Vec2 ray = rotated(line.ray, -stance.yaw);
   const ConvexPolygon& region = reach.polygon(stance.side);
 
-  // Edge i is kept to where room[i] - slope[i] * growth >= 0: a growth is a point on a line, and the
-  // line's part inside the polygon an interval.
+  // Edge i is kept to where room[i] - slope[i] * growth >= 0: a growth is a point on a line, and
+  // the line's part inside the polygon an interval.
   const double first = std::exp(omega * earliest);
   const double last = std::exp(omega * latest);
   double from = first;

@@ -1,6 +1,6 @@
 // Where and when the next foot has to land so that the robot catches itself: eqs. (10) to (13),
-// corrected. Printed, (10) mixes a foot-relative term with a world one, (11) has the wrong sign, and
-// (12) takes the logarithm of its own prediction, which leaves the time as it is.
+// corrected. Printed, (10) mixes a foot-relative term with a world one, (11) has the wrong sign,
+// and (12) takes the logarithm of its own prediction, which leaves the time as it is.
 #pragma once
 
 #include "engine/parameters.h"
@@ -37,8 +37,8 @@ struct StepAdjustment {
   bool adjusted = false;      ///< error beyond the compliance margin
 };
 
-/// (10'), (11'): f_{i+1} + k_sa Delta_f, always from the plan (nothing accumulates), clamped to what
-/// the leg reaches. `time_left` until touchdown [s].
+/// (10'), (11'): f_{i+1} + k_sa Delta_f, always from the plan (nothing accumulates), clamped to
+/// what the leg reaches. `time_left` until touchdown [s].
 StepAdjustment adjust_step(const StepSituation& situation, double time_left, double omega,
                            const ReachRegion& reach, const Parameters& parameters);
 

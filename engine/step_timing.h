@@ -11,8 +11,8 @@ struct StepTimes {
   double step() const { return t_ss + t_ds; }
 };
 
-/// The parameters' durations as long as the steps stay comfortably short; a faster walk takes quicker
-/// steps, down to least_t_ss, before it takes longer ones.
+/// The parameters' durations as long as the steps stay comfortably short; a faster walk takes
+/// quicker steps, down to least_t_ss, before it takes longer ones.
 StepTimes step_times(const WalkCommand& command, const Parameters& parameters);
 
 }  // namespace stagger::engine

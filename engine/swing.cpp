@@ -40,8 +40,7 @@ void SwingTrajectory::start(const FootPose& start, const FootPose& target, doubl
   const double z0 = start.position.z();
   const double z1 = target.position.z();
   const double mean = 0.5 * (z0 + z1);
-  const double middle =
-      mean + middle_control_of_unit_peak * (std::max(z0, z1) + height - mean);
+  const double middle = mean + middle_control_of_unit_peak * (std::max(z0, z1) + height - mean);
   lift_ = {z0, z0, z0, middle, z1, z1, z1};
 }
 

@@ -13,8 +13,8 @@ class SwingTrajectory {
   /// with the sole `height` above the higher of the two ends at its highest.
   void start(const FootPose& start, const FootPose& target, double duration, double height);
 
-  /// New landing place, and a new landing time `duration` since lift-off; keeps the present position,
-  /// velocity and acceleration. `time` is now, since lift-off [s].
+  /// New landing place, and a new landing time `duration` since lift-off; keeps the present
+  /// position, velocity and acceleration. `time` is now, since lift-off [s].
   void retarget(const FootPose& target, double time, double duration);
 
   /// Target of the foot at `time` since lift-off [s]. After `duration` the foot goes on down at

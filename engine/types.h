@@ -30,7 +30,8 @@ struct FootPose {
   double yaw = 0.0;
 };
 
-/// A place to step on: centre of the sole on the ground [m], yaw [rad], and the foot that goes there.
+/// A place to step on: centre of the sole on the ground [m], yaw [rad], and the foot that goes
+/// there.
 struct Footstep {
   Vec2 position = Vec2::Zero();
   double yaw = 0.0;

@@ -92,8 +92,7 @@ const WalkingTargets& WalkingEngine::update(const Measurement& measurement) {
 
   const Side swing_side = other(machine_.support_side());
   StateInputs inputs;
-  inputs.swing_foot_loaded =
-      measurement.foot_load[index(swing_side)] > parameters_.contact_load;
+  inputs.swing_foot_loaded = measurement.foot_load[index(swing_side)] > parameters_.contact_load;
   while (true) {
     const Transition transition = machine_.advance(inputs);
     if (transition == Transition::none) break;
@@ -124,9 +123,7 @@ const WalkingTargets& WalkingEngine::update(const Measurement& measurement) {
 }
 
 void WalkingEngine::react(Transition transition, const Measurement& measurement) {
-  const auto measured = [&](Side side) {
-    return footstep(measurement.feet[index(side)], side);
-  };
+  const auto measured = [&](Side side) { return footstep(measurement.feet[index(side)], side); };
   switch (transition) {
     case Transition::none:
       break;
@@ -163,8 +160,8 @@ void WalkingEngine::begin_shift() {
   // The plan from the first single support on tells where the DCM has to be by then.
   initial_zmp_ = stance_.position;
   plan_reference();
-  initial_zmp_ = initial_zmp(lqg_.dcm(), stance_.position, plan_.dcm_at_end(0), parameters_.t_init,
-                             omega_);
+  initial_zmp_ =
+      initial_zmp(lqg_.dcm(), stance_.position, plan_.dcm_at_end(0), parameters_.t_init, omega_);
   com_reference_ = lqg_.com();
 }
 
@@ -201,9 +198,8 @@ void WalkingEngine::plan_reference() {
     plan_.add({machine_.single_support_left(), stance_.position, stance_.position});
   } else {
     const Vec2 goal = step_count_ == 0 ? middle() : landed_.position;
-    const double share = machine_.t_ds() > 0.0
-                             ? 1.0 - machine_.double_support_left() / machine_.t_ds()
-                             : 1.0;
+    const double share =
+        machine_.t_ds() > 0.0 ? 1.0 - machine_.double_support_left() / machine_.t_ds() : 1.0;
     const Vec2 now = stance_.position + share * (goal - stance_.position);
     plan_.add({machine_.double_support_left(), now, goal});
     if (step_count_ == 0) {
@@ -237,8 +233,7 @@ void WalkingEngine::plan_reference() {
 }
 
 StepSituation WalkingEngine::situation(const Footstep& next) const {
-  return {stance_, next, lqg_.dcm(), plan_.dcm_at_end(0),
-          transfer_factor(machine_.t_ds(), omega_)};
+  return {stance_, next, lqg_.dcm(), plan_.dcm_at_end(0), transfer_factor(machine_.t_ds(), omega_)};
 }
 
 void WalkingEngine::adjust() {
@@ -248,9 +243,8 @@ void WalkingEngine::adjust() {
     const StepSituation now = situation(planned_);
     if (parameters_.strategies.time) {
       const double passed = machine_.time();
-      const double earliest =
-          std::max({nominal_t_ss_ - parameters_.time_limit, parameters_.least_t_ss,
-                    passed + parameters_.step_freeze});
+      const double earliest = std::max({nominal_t_ss_ - parameters_.time_limit,
+                                        parameters_.least_t_ss, passed + parameters_.step_freeze});
       const double latest = std::max(nominal_t_ss_ + parameters_.time_limit, earliest);
       const double nominal = std::clamp(nominal_t_ss_, earliest, latest);
       double wanted = nominal;

@@ -91,7 +91,7 @@ class WalkingEngine {
   std::array<Footstep, preview_steps> steps_;
   std::size_t step_count_ = 0;
   SwingTrajectory swing_;
-  Footstep swing_goal_;  ///< what swing_ is heading for
+  Footstep swing_goal_;        ///< what swing_ is heading for
   double nominal_t_ss_ = 0.0;  ///< of the single support under way, before adjustment [s]
   bool adjusting_ = false;
 

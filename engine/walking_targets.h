@@ -22,10 +22,10 @@ inline constexpr std::size_t preview_steps = 4;
 struct WalkingTargets {
   WalkingState state = WalkingState::idle;
   Side support_side = Side::left;  ///< stance foot; in double support the foot that the ZMP leaves
-  double phase_time = 0.0;         ///< t of eq. (1): since the start of this step's single support [s]
-  double t_ss = 0.0;               ///< single support duration of this step, adjusted [s]
-  double t_ds = 0.0;               ///< double support duration of this step [s]
-  std::uint64_t step_count = 0;    ///< steps landed since the engine was made
+  double phase_time = 0.0;  ///< t of eq. (1): since the start of this step's single support [s]
+  double t_ss = 0.0;        ///< single support duration of this step, adjusted [s]
+  double t_ds = 0.0;        ///< double support duration of this step [s]
+  std::uint64_t step_count = 0;  ///< steps landed since the engine was made
 
   Vec2 zmp_reference = Vec2::Zero();           ///< eq. (1) [m]
   Vec2 com_reference = Vec2::Zero();           ///< [m]
@@ -35,10 +35,10 @@ struct WalkingTargets {
   Vec2 dcm_estimate = Vec2::Zero();            ///< Kalman filter [m]
   Vec2 zmp_command = Vec2::Zero();             ///< LQG output inside the support polygon [m]
   Vec2 zmp_shift = Vec2::Zero();               ///< hip strategy: torque / (m g), world axes [m]
-  Vec2 hip_angle = Vec2::Zero();               ///< lean that the engine thinks of, heading axes [rad]
-  double com_height = 0.0;                     ///< above the ground under the stance foot [m]
-  double heading = 0.0;                        ///< yaw for pelvis and torso [rad]
-  double heading_velocity = 0.0;               ///< [rad/s]
+  Vec2 hip_angle = Vec2::Zero();  ///< lean that the engine thinks of, heading axes [rad]
+  double com_height = 0.0;        ///< above the ground under the stance foot [m]
+  double heading = 0.0;           ///< yaw for pelvis and torso [rad]
+  double heading_velocity = 0.0;  ///< [rad/s]
 
   PerFoot<FootTarget> feet;
   Footstep planned_step;   ///< next foothold before adjustment

@@ -16,9 +16,13 @@ std::vector<Component> components(std::initializer_list<const char*> names, cons
 /// A channel of one number.
 template <typename Member>
 Channel scalar(const char* name, const char* unit, const char* meaning, Member Frame::*member) {
-  return {name, "", meaning, {{"value", unit}}, 1, [member](const Frame& f, Values& out) {
-            out.push_back(static_cast<double>(f.*member));
-          }};
+  return {name,
+          "",
+          meaning,
+          {{"value", unit}},
+          1,
+          [member](const Frame& f, Values& out) {
+            out.push_back(static_cast<double>(f.*member)); }};
 }
 
 /// A channel of a vector in the world frame.
@@ -33,15 +37,16 @@ Channel vector(const char* name, const char* unit, const char* meaning,
 }
 
 Channel foot(const char* name, const char* meaning, PerFoot<FootPose> Frame::*member, Side side) {
-  return {name,
-          "world",
-          meaning,
-          {{"x", "m"}, {"y", "m"}, {"z", "m"}, {"yaw", "rad"}},
-          1,
-          [member, side](const Frame& f, Values& out) {
-            const FootPose& pose = (f.*member)[engine::index(side)];
-            out.insert(out.end(), {pose.position.x(), pose.position.y(), pose.position.z(), pose.yaw});
-          }};
+  return {
+      name,
+      "world",
+      meaning,
+      {{"x", "m"}, {"y", "m"}, {"z", "m"}, {"yaw", "rad"}},
+      1,
+      [member, side](const Frame& f, Values& out) {
+        const FootPose& pose = (f.*member)[engine::index(side)];
+        out.insert(out.end(), {pose.position.x(), pose.position.y(), pose.position.z(), pose.yaw});
+      }};
 }
 
 const std::vector<Component> footstep_components{
@@ -53,8 +58,9 @@ void append(const Footstep& step, Values& out) {
 }
 
 Channel footstep(const char* name, const char* meaning, Footstep Frame::*member) {
-  return {name, "world", meaning, footstep_components, 1,
-          [member](const Frame& f, Values& out) { append(f.*member, out); }};
+  return {name,    "world",
+          meaning, footstep_components,
+          1,       [member](const Frame& f, Values& out) { append(f.*member, out); }};
 }
 
 Channel joints(const char* name, const char* unit, const char* meaning,
@@ -76,60 +82,57 @@ std::vector<Channel> make_channels(const std::vector<std::string>& joint_names) 
   table.push_back(scalar("state", "1",
                          "walking state: 0 idle, 1 initialize, 2 single support, 3 double support",
                          &Frame::state));
-  table.push_back(scalar("support_side", "1", "support foot: 0 left, 1 right",
-                         &Frame::support_side));
-  table.push_back(scalar("phase_time", "s", "time since lift-off of this step", &Frame::phase_time));
+  table.push_back(
+      scalar("support_side", "1", "support foot: 0 left, 1 right", &Frame::support_side));
+  table.push_back(
+      scalar("phase_time", "s", "time since lift-off of this step", &Frame::phase_time));
   table.push_back(scalar("t_ss", "s", "single support duration of this step", &Frame::t_ss));
   table.push_back(scalar("t_ds", "s", "double support duration of this step", &Frame::t_ds));
   table.push_back(scalar("step_count", "1", "steps landed", &Frame::step_count));
 
   table.push_back(vector<3>("com", "m", "centre of mass", &Frame::com));
-  table.push_back(vector<3>("com_velocity", "m/s", "velocity of the centre of mass",
-                            &Frame::com_velocity));
+  table.push_back(
+      vector<3>("com_velocity", "m/s", "velocity of the centre of mass", &Frame::com_velocity));
   table.push_back(vector<2>("dcm", "m", "divergent component of motion", &Frame::dcm));
   table.push_back(vector<2>("zmp", "m", "zero moment point from the contact forces", &Frame::zmp));
   table.push_back(vector<2>("com_reference", "m", "planned centre of mass", &Frame::com_reference));
   table.push_back(vector<2>("dcm_reference", "m", "planned DCM", &Frame::dcm_reference));
   table.push_back(vector<2>("zmp_reference", "m", "planned ZMP", &Frame::zmp_reference));
-  table.push_back(vector<2>("dcm_estimate", "m", "DCM as the Kalman filter sees it",
-                            &Frame::dcm_estimate));
-  table.push_back(vector<2>("zmp_command", "m", "ZMP that the controller asks for",
-                            &Frame::zmp_command));
+  table.push_back(
+      vector<2>("dcm_estimate", "m", "DCM as the Kalman filter sees it", &Frame::dcm_estimate));
+  table.push_back(
+      vector<2>("zmp_command", "m", "ZMP that the controller asks for", &Frame::zmp_command));
 
-  table.push_back(vector<3>("base_position", "m", "origin of the base link",
-                            &Frame::base_position));
-  table.push_back({"base_orientation",
-                   "world",
-                   "orientation of the base link, unit quaternion",
-                   components({"w", "x", "y", "z"}, "1"),
-                   1,
-                   [](const Frame& f, Values& out) {
+  table.push_back(
+      vector<3>("base_position", "m", "origin of the base link", &Frame::base_position));
+  table.push_back({"base_orientation", "world", "orientation of the base link, unit quaternion",
+                   components({"w", "x", "y", "z"}, "1"), 1, [](const Frame& f, Values& out) {
                      const auto& q = f.base_orientation;
                      out.insert(out.end(), {q.w(), q.x(), q.y(), q.z()});
                    }});
   table.push_back(foot("left_foot", "centre of the left sole", &Frame::feet, Side::left));
   table.push_back(foot("right_foot", "centre of the right sole", &Frame::feet, Side::right));
-  table.push_back(foot("left_foot_target", "where the left sole is wanted", &Frame::foot_targets,
-                       Side::left));
+  table.push_back(
+      foot("left_foot_target", "where the left sole is wanted", &Frame::foot_targets, Side::left));
   table.push_back(foot("right_foot_target", "where the right sole is wanted", &Frame::foot_targets,
                        Side::right));
   table.push_back({"foot_load", "world", "normal force under each foot",
                    components({"left", "right"}, "N"), 1, [](const Frame& f, Values& out) {
                      out.insert(out.end(), f.foot_load.begin(), f.foot_load.end());
                    }});
-  table.push_back(joints("joint_position", "rad", "joint angles", joint_names,
-                         &Frame::joint_position));
-  table.push_back(joints("joint_velocity", "rad/s", "joint velocities", joint_names,
-                         &Frame::joint_velocity));
-  table.push_back(joints("joint_torque", "N m", "joint torques that acted", joint_names,
-                         &Frame::joint_torque));
+  table.push_back(
+      joints("joint_position", "rad", "joint angles", joint_names, &Frame::joint_position));
+  table.push_back(
+      joints("joint_velocity", "rad/s", "joint velocities", joint_names, &Frame::joint_velocity));
+  table.push_back(
+      joints("joint_torque", "N m", "joint torques that acted", joint_names, &Frame::joint_torque));
 
   table.push_back(footstep("planned_step", "next foothold before adjustment; side 0 left, 1 right",
                            &Frame::planned_step));
-  table.push_back(footstep("adjusted_step", "next foothold: where the swing foot goes",
-                           &Frame::adjusted_step));
-  table.push_back({"preview", "world", "the steps to come, the next one first",
-                   footstep_components, engine::preview_steps, [](const Frame& f, Values& out) {
+  table.push_back(
+      footstep("adjusted_step", "next foothold: where the swing foot goes", &Frame::adjusted_step));
+  table.push_back({"preview", "world", "the steps to come, the next one first", footstep_components,
+                   engine::preview_steps, [](const Frame& f, Values& out) {
                      for (std::size_t i = 0; i < f.preview_count; ++i) append(f.preview[i], out);
                    }});
   table.push_back({"support_polygon", "world", "corners of the support polygon, counter-clockwise",
@@ -148,8 +151,8 @@ std::vector<Channel> make_channels(const std::vector<std::string>& joint_names) 
 }
 
 const Channel* find_channel(std::span<const Channel> channels, const std::string& name) {
-  const auto found =
-      std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == name; });
+  const auto found = std::find_if(channels.begin(), channels.end(),
+                                  [&](const Channel& c) { return c.name == name; });
   return found == channels.end() ? nullptr : &*found;
 }
 

@@ -29,7 +29,8 @@ class Noise {
   /// In (0, 1].
   double uniform() { return (static_cast<double>(engine_() >> 11) + 1.0) * 0x1p-53; }
 
-  std::mt19937_64 engine_;  // its sequence is fixed by the standard, std::normal_distribution's is not
+  std::mt19937_64
+      engine_;  // its sequence is fixed by the standard, std::normal_distribution's is not
   double spare_ = 0.0;
   bool has_spare_ = false;
 };

@@ -60,7 +60,8 @@ void Simulation::set_strategies(const engine::Strategies& strategies) {
 
 std::uint64_t Simulation::push(const PushSpec& spec) {
   if (!config_.robot->model.links.contains(spec.link)) {
-    throw std::invalid_argument("robot " + config_.robot->name + " has no link '" + spec.link + "'");
+    throw std::invalid_argument("robot " + config_.robot->name + " has no link '" + spec.link +
+                                "'");
   }
   const std::uint64_t id = pushes_.add(spec, tick_);
   open_pushes_.emplace_back(id - 1, PushState::scheduled);
@@ -136,7 +137,8 @@ void Simulation::note_landing(const engine::WalkingTargets& swing) {
   const Vec2 landed = frame_.feet[foot].position.head<2>();
   const double adjustment = (adjusted.position - planned.position).norm();
   char text[160];
-  std::snprintf(text, sizeof text, "%s foot landed at (%.3f, %.3f), %.3f m from where it was planned",
+  std::snprintf(text, sizeof text,
+                "%s foot landed at (%.3f, %.3f), %.3f m from where it was planned",
                 name(planned.side), landed.x(), landed.y(), (landed - planned.position).norm());
   emit(EventKind::step, text,
        {{"side", static_cast<double>(foot)},
@@ -158,8 +160,9 @@ void Simulation::note_pushes() {
     if (started_now) {
       std::snprintf(text, sizeof text, "push %g on %s: %.3g N s over %g s", id,
                     push.spec.link.c_str(), push.spec.impulse_ns, push.spec.duration_s);
-      emit(EventKind::push_started, text,
-           {{"id", id}, {"impulse_ns", push.spec.impulse_ns}, {"duration_s", push.spec.duration_s}});
+      emit(
+          EventKind::push_started, text,
+          {{"id", id}, {"impulse_ns", push.spec.impulse_ns}, {"duration_s", push.spec.duration_s}});
     }
     if (push.state == PushState::done) {
       std::snprintf(text, sizeof text, "push %g delivered %.3g N s", id, push.delivered.norm());

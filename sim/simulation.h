@@ -89,7 +89,7 @@ class Simulation {
   engine::WalkingEngine engine_;
   PushSchedule pushes_;
   std::vector<std::pair<std::size_t, PushState>> open_pushes_;  ///< as last told in an event
-  std::uint64_t tick_ = 0;              ///< of the next step()
+  std::uint64_t tick_ = 0;                                      ///< of the next step()
   Frame frame_;
   std::vector<Event> events_;
   StateHash hash_;

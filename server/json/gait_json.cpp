@@ -1,5 +1,6 @@
 #include "server/json/gait_json.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace stagger::server {
@@ -35,45 +36,52 @@ Json walk_json(const engine::WalkCommand& walk) {
 }
 
 engine::Strategies StrategyPatch::applied_to(engine::Strategies present) const {
-  present.ankle = ankle.value_or(present.ankle);
-  present.step = step.value_or(present.step);
+  for (std::size_t i = 0; i < strategies.size(); ++i) {
+    if (wanted[i]) present.*strategies[i].member = *wanted[i];
+  }
   return present;
 }
 
 StrategyPatch read_strategies(sim::JsonReader& reader) {
   StrategyPatch patch;
-  patch.ankle = reader.optional_boolean("ankle");
-  patch.step = reader.optional_boolean("step");
+  for (std::size_t i = 0; i < strategies.size(); ++i) {
+    patch.wanted[i] = reader.optional_boolean(strategies[i].name);
+  }
   return patch;
 }
 
-Json strategies_json(const engine::Strategies& strategies) {
-  return {{"ankle", strategies.ankle}, {"step", strategies.step}};
+Json strategies_json(const engine::Strategies& present) {
+  Json json = Json::object();
+  for (const Strategy& strategy : strategies) {
+    json[std::string(strategy.name)] = present.*strategy.member;
+  }
+  return json;
 }
 
 std::optional<engine::Strategies> read_strategy_names(sim::JsonReader& reader,
                                                       std::string_view name) {
   if (reader.value(name) == nullptr) return std::nullopt;
-  engine::Strategies strategies{.ankle = false, .step = false};
-  for (const std::string& strategy : reader.string_list(name, Range::between(0, 16))) {
-    bool* const wanted = strategy == "ankle"  ? &strategies.ankle
-                         : strategy == "step" ? &strategies.step
-                                              : nullptr;
-    if (wanted == nullptr) {
-      reader.refuse(name, "names \"" + strategy + R"("; allowed: "ankle", "step")");
-    } else if (*wanted) {
-      reader.refuse(name, "names \"" + strategy + "\" twice");
+  engine::Strategies chosen{.ankle = false, .hip = false, .step = false, .time = false};
+  for (const std::string& wanted : reader.string_list(name, Range::between(0, 16))) {
+    const auto* const found =
+        std::find_if(strategies.begin(), strategies.end(),
+                     [&wanted](const Strategy& strategy) { return strategy.name == wanted; });
+    if (found == strategies.end()) {
+      reader.refuse(name, "names \"" + wanted + R"("; allowed: "ankle", "step", "time")");
+    } else if (chosen.*found->member) {
+      reader.refuse(name, "names \"" + wanted + "\" twice");
     } else {
-      *wanted = true;
+      chosen.*found->member = true;
     }
   }
-  return strategies;
+  return chosen;
 }
 
-Json strategy_names_json(const engine::Strategies& strategies) {
+Json strategy_names_json(const engine::Strategies& present) {
   Json names = Json::array();
-  if (strategies.ankle) names.push_back("ankle");
-  if (strategies.step) names.push_back("step");
+  for (const Strategy& strategy : strategies) {
+    if (present.*strategy.member) names.push_back(std::string(strategy.name));
+  }
   return names;
 }
 

@@ -1,6 +1,7 @@
 // Walk commands, strategies and plants: the words that requests, trials and answers share.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string_view>
 
@@ -16,21 +17,31 @@ namespace stagger::server {
 engine::WalkCommand read_walk(sim::JsonReader& reader);
 Json walk_json(const engine::WalkCommand& walk);
 
+/// A strategy that users may switch. The engine's hip strategy drives the point mass's flywheel
+/// only: it joins the list when a robot can do something with it.
+struct Strategy {
+  std::string_view name;
+  bool engine::Strategies::*member;
+};
+inline constexpr std::array<Strategy, 3> strategies{{{"ankle", &engine::Strategies::ankle},
+                                                     {"step", &engine::Strategies::step},
+                                                     {"time", &engine::Strategies::time}}};
+
 /// Which strategies are to be changed; the others stay as they are.
 struct StrategyPatch {
-  std::optional<bool> ankle;
-  std::optional<bool> step;
+  std::array<std::optional<bool>, strategies.size()> wanted;
   engine::Strategies applied_to(engine::Strategies present) const;
 };
 
-/// {"ankle":true,"step":false}, each of them optional.
+/// {"ankle":true,"step":false,"time":true}, each of them optional.
 StrategyPatch read_strategies(sim::JsonReader& reader);
-Json strategies_json(const engine::Strategies& strategies);
+Json strategies_json(const engine::Strategies& present);
 
-/// The field `name`, ["ankle","step"]: those that may act. Nothing when the field is left out.
+/// The field `name`, ["ankle","step","time"]: those that may act. Nothing when the field is left
+/// out.
 std::optional<engine::Strategies> read_strategy_names(sim::JsonReader& reader,
                                                       std::string_view name);
-Json strategy_names_json(const engine::Strategies& strategies);
+Json strategy_names_json(const engine::Strategies& present);
 
 std::string_view name_of(sim::PlantKind plant);
 std::string_view name_of(sim::WalkingState state);

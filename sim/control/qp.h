@@ -20,9 +20,9 @@ struct QpProblem {
 
 enum class QpStatus : std::uint8_t {
   solved,
-  infeasible,    ///< the constraints contradict each other
-  not_convex,    ///< H is not positive definite
-  out_of_steps   ///< degenerate beyond patience
+  infeasible,   ///< the constraints contradict each other
+  not_convex,   ///< H is not positive definite
+  out_of_steps  ///< degenerate beyond patience
 };
 
 /// Dual active-set method of Goldfarb and Idnani (Mathematical Programming 27, 1983): starts from

@@ -91,8 +91,7 @@ void WholeBodyController::add_foot_task(const RigidBody& body, const Foot& foot,
     weight = gains_.stance_weight;
   } else {
     const Eigen::Matrix3d rotation = body.rotation(foot.body) * foot.sole.linear();
-    wanted.head<3>() = target.acceleration +
-                       gains_.swing_stiffness * (target.position - point) +
+    wanted.head<3>() = target.acceleration + gains_.swing_stiffness * (target.position - point) +
                        gains_.swing_damping * (target.velocity - velocity.head<3>());
     const double size = wanted.head<3>().norm();
     if (size > gains_.swing_acceleration_limit) {

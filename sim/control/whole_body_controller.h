@@ -13,8 +13,8 @@
 
 namespace stagger::sim {
 
-/// Weights and gains. Chosen by push scores on a 30 kg biped (docs/notation.md tells what they mean);
-/// each pair of gains is (stiffness [1/s^2], damping [1/s]).
+/// Weights and gains. Chosen by push scores on a 30 kg biped (docs/notation.md tells what they
+/// mean); each pair of gains is (stiffness [1/s^2], damping [1/s]).
 struct WholeBodyGains {
   double com_weight = 1000.0;  ///< horizontal CoM acceleration w^2 (c - p)
   double height_weight = 100.0;
@@ -31,8 +31,8 @@ struct WholeBodyGains {
   double stance_damping = 60.0;
   double acceleration_regularisation = 1e-2;
   double force_regularisation = 1e-6;
-  double friction = 0.5;      ///< of each axis of the pyramid; its corner (0.71) is below the plant's
-  double sole_margin = 0.005; ///< corners lie this far inside the sole [m]
+  double friction = 0.5;  ///< of each axis of the pyramid; its corner (0.71) is below the plant's
+  double sole_margin = 0.005;       ///< corners lie this far inside the sole [m]
   double least_normal_force = 0.5;  ///< per corner [N]
 };
 
@@ -62,7 +62,8 @@ class WholeBodyController {
   using Rows = Eigen::Ref<const Eigen::MatrixXd>;
 
   /// Adds weight * |jacobian nudot - value|^2 to the cost.
-  void add_task(double weight, const Rows& jacobian, const Eigen::Ref<const Eigen::VectorXd>& value);
+  void add_task(double weight, const Rows& jacobian,
+                const Eigen::Ref<const Eigen::VectorXd>& value);
   void add_com_task(const RigidBody& body, const engine::WalkingTargets& targets);
   void add_torso_task(const RigidBody& body, const engine::WalkingTargets& targets);
   void add_foot_task(const RigidBody& body, const Foot& foot, const engine::FootTarget& target);

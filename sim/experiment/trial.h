@@ -33,9 +33,9 @@ enum class TrialOutcome : std::uint8_t {
 
 struct TrialResult {
   TrialOutcome outcome = TrialOutcome::invalid;
-  std::string reason;            ///< of a fall, a time-out or an invalid trial; else empty
-  double delivered_ns = 0.0;     ///< norm of the impulse that really acted [N s]
-  std::optional<std::uint64_t> push_tick;   ///< first tick of the push
+  std::string reason;         ///< of a fall, a time-out or an invalid trial; else empty
+  double delivered_ns = 0.0;  ///< norm of the impulse that really acted [N s]
+  std::optional<std::uint64_t> push_tick;         ///< first tick of the push
   std::optional<std::uint64_t> steps_to_recover;  ///< steps until back at the commanded gait
   std::optional<double> fall_time_s;
   double worst_dcm_error_m = 0.0;

@@ -38,8 +38,7 @@ void FullBodyPlant::measure() {
   measurement_.com = body_.com();
   measurement_.com_velocity = body_.com_velocity();
   for (const Side side : {Side::left, Side::right}) {
-    const Eigen::Isometry3d sole =
-        body_.pose(robot_->foot_body(side)) * robot_->sole_in_body(side);
+    const Eigen::Isometry3d sole = body_.pose(robot_->foot_body(side)) * robot_->sole_in_body(side);
     FootPose& foot = measurement_.feet[engine::index(side)];
     foot.position = sole.translation();
     foot.yaw = std::atan2(sole.linear()(1, 0), sole.linear()(0, 0));

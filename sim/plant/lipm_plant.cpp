@@ -72,7 +72,8 @@ Vec2 LipmPlant::turn_flywheel(const Vec2& wanted_shift) {
     const double rate = hip_rate_[axis] + torque / hip.inertia * dt_;
     const double angle = hip_angle_[axis] + 0.5 * (hip_rate_[axis] + rate) * dt_;
     // At a stop the motor can push no farther.
-    const bool at_stop = (angle > hip.angle && torque > 0.0) || (angle < -hip.angle && torque < 0.0);
+    const bool at_stop =
+        (angle > hip.angle && torque > 0.0) || (angle < -hip.angle && torque < 0.0);
     if (at_stop || std::abs(rate) > hip.rate) torque = 0.0;
     shift[axis] = torque / weight;
     const double acceleration = torque / hip.inertia;

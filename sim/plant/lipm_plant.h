@@ -15,16 +15,16 @@ namespace stagger::sim {
 
 /// The plant's own truth: it may differ from what the engine believes.
 struct LipmParameters {
-  double mass = 30.0;              ///< [kg]
-  double com_height = 1.0;         ///< [m]
-  double gravity = 9.81;           ///< [m/s^2]
+  double mass = 30.0;       ///< [kg]
+  double com_height = 1.0;  ///< [m]
+  double gravity = 9.81;    ///< [m/s^2]
   engine::Sole sole{0.075, 0.0375};
-  double stance_width = 0.2;       ///< of the feet at the start [m]
-  double reach = 2.0;              ///< a DCM farther than this from both feet is a fall [m]
-  engine::HipParameters hip;       ///< limits of the flywheel; without torque there is none
-  double noise = 0.0;              ///< standard deviation of the measured CoM and DCM, each axis [m]
-  double delay = 0.0;              ///< age of the measurement [s]
-  std::uint64_t seed = 1;          ///< of the noise
+  double stance_width = 0.2;  ///< of the feet at the start [m]
+  double reach = 2.0;         ///< a DCM farther than this from both feet is a fall [m]
+  engine::HipParameters hip;  ///< limits of the flywheel; without torque there is none
+  double noise = 0.0;         ///< standard deviation of the measured CoM and DCM, each axis [m]
+  double delay = 0.0;         ///< age of the measurement [s]
+  std::uint64_t seed = 1;     ///< of the noise
 };
 
 LipmParameters lipm_parameters(const Robot& robot);
@@ -46,7 +46,7 @@ class LipmPlant final : public Plant {
   /// Starts from this CoM position and velocity instead of from rest in the middle.
   void set_state(const Vec2& com, const Vec2& velocity);
 
-  Vec2 dcm() const;                              ///< true [m]
+  Vec2 dcm() const;  ///< true [m]
   const engine::Measurement& truth() const { return truth_; }
   const Vec2& hip_angle() const { return hip_angle_; }  ///< [rad]
 

@@ -27,7 +27,8 @@ class Plant {
   /// What the engine may know now.
   virtual const engine::Measurement& measurement() const = 0;
   /// Advances by one tick under the targets and the pushes.
-  virtual void step(const engine::WalkingTargets& targets, std::span<const AppliedForce> forces) = 0;
+  virtual void step(const engine::WalkingTargets& targets,
+                    std::span<const AppliedForce> forces) = 0;
   /// The robot has fallen: no control any more, it goes limp or stays where it is.
   virtual void release() = 0;
   /// Writes the plant's own part of the frame: base, joints, feet, loads, true CoM and ZMP.

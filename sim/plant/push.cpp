@@ -70,8 +70,7 @@ const std::vector<AppliedForce>& PushSchedule::forces(std::uint64_t tick, double
     if (push.state != PushState::active) continue;
     // The mean force over the tick: the impulse is exact whatever the duration.
     const double since = static_cast<double>(tick - *push.start_tick) * dt;
-    const double share =
-        delivered_share(push.spec, since + dt) - delivered_share(push.spec, since);
+    const double share = delivered_share(push.spec, since + dt) - delivered_share(push.spec, since);
     const Vec3 impulse = push.spec.impulse_ns * share * push.world_direction;
     push.delivered += impulse;
     acting_.push_back({push.spec.link, push.spec.point, impulse / dt});

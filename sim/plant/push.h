@@ -15,7 +15,8 @@ using engine::Side;
 using engine::Vec2;
 using engine::Vec3;
 
-/// Force over time: constant, or half a sine wave (peak = pi/2 of the constant force of same impulse).
+/// Force over time: constant, or half a sine wave (peak = pi/2 of the constant force of same
+/// impulse).
 enum class PushProfile : std::uint8_t { rectangular, half_sine };
 
 /// Starts when the gait comes to this phase: `leg` is the support foot (in double support the foot
@@ -38,7 +39,7 @@ using PushTrigger = std::variant<Immediate, TimeTrigger, PhaseTrigger>;
 
 struct PushSpec {
   std::string link = "torso";
-  std::optional<Vec3> point;       ///< in the link's frame [m]; the link's centre of mass when empty
+  std::optional<Vec3> point;  ///< in the link's frame [m]; the link's centre of mass when empty
   Vec3 direction = Vec3::UnitX();  ///< unit vector in the frame of the robot's heading
   double impulse_ns = 0.0;         ///< integral of the force over the whole push [N s]
   double duration_s = 0.1;
@@ -90,7 +91,8 @@ class PushSchedule {
 
  private:
   std::vector<PushRecord> records_;
-  std::vector<std::size_t> open_;  ///< indices of those scheduled or active: a tick looks at no other
+  std::vector<std::size_t>
+      open_;  ///< indices of those scheduled or active: a tick looks at no other
   std::vector<AppliedForce> acting_;
 };
 

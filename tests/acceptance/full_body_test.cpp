@@ -52,11 +52,11 @@ TEST(FullBody, TurnsMoreThanAWholeTurnBothWays) {
   }
 }
 
-class PushedFrom : public ::testing::TestWithParam<int> {};
+class FullBodyPushed : public ::testing::TestWithParam<int> {};
 
-INSTANTIATE_TEST_SUITE_P(Directions, PushedFrom, ::testing::Values(0, 90, 180, 270));
+INSTANTIATE_TEST_SUITE_P(Directions, FullBodyPushed, ::testing::Values(0, 90, 180, 270));
 
-TEST_P(PushedFrom, RecoversAtEveryPartOfTheStep) {
+TEST_P(FullBodyPushed, RecoversAtEveryPartOfTheStep) {
   const double angle = GetParam() * M_PI / 180.0;
   for (int i = 0; i < 10; ++i) {
     TrialSpec spec;
@@ -67,8 +67,8 @@ TEST_P(PushedFrom, RecoversAtEveryPartOfTheStep) {
     spec.push->duration_s = 0.05;
     spec.push->trigger = TimeTrigger{3.0 + 0.1 * i};  // two steps take a second
     const TrialResult result = run_trial(spec, kasaei());
-    EXPECT_EQ(result.outcome, TrialOutcome::recovered) << GetParam() << " deg, " << i << ": "
-                                                       << result.reason;
+    EXPECT_EQ(result.outcome, TrialOutcome::recovered)
+        << GetParam() << " deg, " << i << ": " << result.reason;
     EXPECT_NEAR(result.delivered_ns, 6.0, 1e-9);
     EXPECT_GE(result.steps_to_recover.value_or(0), 1U) << GetParam() << " deg, " << i;
   }

@@ -22,7 +22,8 @@ TEST(FootstepPlanner, VelocityIsDistanceOverTime) {
   const WalkCommand command{0.3, -0.1, 0.0};
   Footstep step{{0.0, 0.1}, 0.0, Side::left};
   const Vec2 start = step.position;
-  for (int i = 0; i < 20; ++i) step = next_footstep(step, command, 0.5, parameters.stance_width, reach);
+  for (int i = 0; i < 20; ++i)
+    step = next_footstep(step, command, 0.5, parameters.stance_width, reach);
   EXPECT_NEAR(step.position.x() - start.x(), 0.3 * 10.0, 1e-9);
   EXPECT_NEAR(step.position.y() - start.y(), -0.1 * 10.0, 1e-9);
 }
@@ -42,7 +43,8 @@ TEST(FootstepPlanner, TurnsAboutTheMiddle) {
   const Parameters parameters;
   const ReachRegion reach(parameters);
   Footstep step{{0.0, 0.1}, 0.0, Side::left};
-  for (int i = 0; i < 40; ++i) step = next_footstep(step, {0.0, 0.0, 0.3}, 0.5, parameters.stance_width, reach);
+  for (int i = 0; i < 40; ++i)
+    step = next_footstep(step, {0.0, 0.0, 0.3}, 0.5, parameters.stance_width, reach);
   EXPECT_NEAR(step.yaw, 0.3 * 20.0, 1e-9);
   EXPECT_LT(step.position.norm(), 0.2);  // has not walked away
 }
@@ -52,8 +54,7 @@ TEST(FootstepPlanner, ReachKeepsTheSideInTheStanceFrame) {
   const ReachRegion reach(parameters);
   const Footstep stance{{1.0, 2.0}, 1.0, Side::right};
   const Vec2 wanted = stance.position + rotated({5.0, -1.0}, 1.0);
-  const Vec2 in_stance =
-      rotated(reach.clamp(stance, wanted) - stance.position, -stance.yaw);
+  const Vec2 in_stance = rotated(reach.clamp(stance, wanted) - stance.position, -stance.yaw);
   EXPECT_NEAR(in_stance.x(), parameters.max_step_length, 1e-12);
   EXPECT_NEAR(in_stance.y(), parameters.min_step_width, 1e-12);
 }

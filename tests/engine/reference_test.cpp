@@ -65,10 +65,10 @@ TEST(Reference, ComVelocityIsContinuousOverSegments) {
   const Vec2 com(-0.05, 0.03);
   const double h = 1e-5;
   for (const double boundary : {0.4, 0.5}) {
-    const Vec2 before = plan.advance_com(com, boundary, omega) -
-                        plan.advance_com(com, boundary - h, omega);
-    const Vec2 after = plan.advance_com(com, boundary + h, omega) -
-                       plan.advance_com(com, boundary, omega);
+    const Vec2 before =
+        plan.advance_com(com, boundary, omega) - plan.advance_com(com, boundary - h, omega);
+    const Vec2 after =
+        plan.advance_com(com, boundary + h, omega) - plan.advance_com(com, boundary, omega);
     EXPECT_LT((after - before).norm() / h, 1e-3);  // one acceleration times h, no jump
   }
 }

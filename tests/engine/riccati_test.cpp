@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+#include <stdexcept>
+
 namespace stagger::engine {
 namespace {
 
@@ -13,10 +16,10 @@ TEST(Riccati, SolvesTheEquation) {
   const Eigen::Vector3d b(0.1, 0.5, 1.0);
   const Eigen::Matrix3d q = Eigen::Vector3d(1.0, 2.0, 0.5).asDiagonal();
   const Matrix1 r(0.3);
-  const Eigen::Matrix3d x = solve_dare<3, 1>(a, b, q, r);
+  const Eigen::Matrix3d x = solve_dare(a, b, q, r);
   const Matrix1 s = r + b.transpose() * x * b;
-  const Eigen::Matrix3d residual = a.transpose() * x * a - x + q -
-                                   a.transpose() * x * b * s.inverse() * b.transpose() * x * a;
+  const Eigen::Matrix3d residual =
+      a.transpose() * x * a - x + q - a.transpose() * x * b * s.inverse() * b.transpose() * x * a;
   EXPECT_LT(residual.norm(), 1e-10 * x.norm());
 }
 
@@ -27,20 +30,19 @@ TEST(Riccati, ScalarCaseHasAClosedForm) {
   const double r = 2.0;
   const double p = r - a * a * r - q;
   const double expected = (-p + std::sqrt(p * p + 4.0 * q * r)) / 2.0;
-  EXPECT_NEAR((solve_dare<1, 1>(Matrix1(a), Matrix1(1.0), Matrix1(q), Matrix1(r))(0)), expected,
-              1e-12);
+  EXPECT_NEAR((solve_dare(Matrix1(a), Matrix1(1.0), Matrix1(q), Matrix1(r))(0)), expected, 1e-12);
 }
 
 TEST(Riccati, RefusesWhatCannotBeStabilised) {
   // The second mode is unstable and the input does not reach it.
   const Eigen::Matrix2d a = Eigen::Vector2d(0.9, 1.1).asDiagonal();
   const Eigen::Vector2d b(1.0, 0.0);
-  EXPECT_THROW((solve_dare<2, 1>(a, b, Eigen::Matrix2d::Identity(), Matrix1(1.0))),
+  EXPECT_THROW((solve_dare(a, b, Eigen::Matrix2d::Identity(), Matrix1(1.0))),
                std::invalid_argument);
 }
 
 TEST(Riccati, RefusesAnInputWeightThatIsNotPositive) {
-  EXPECT_THROW((solve_dare<1, 1>(Matrix1(1.1), Matrix1(1.0), Matrix1(1.0), Matrix1(0.0))),
+  EXPECT_THROW((solve_dare(Matrix1(1.1), Matrix1(1.0), Matrix1(1.0), Matrix1(0.0))),
                std::invalid_argument);
 }
 

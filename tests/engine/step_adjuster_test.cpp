@@ -52,8 +52,7 @@ TEST(StepAdjuster, TheAdjustedStepMeetsTheDcm) {
   };
   const Vec2 touchdown = dcm_after(s.dcm, s.stance.position, 0.5, omega);
   const Vec2 offset = dcm_after_transfer(touchdown, result.step.position) - result.step.position;
-  const Vec2 nominal =
-      dcm_after_transfer(s.nominal_dcm, s.planned.position) - s.planned.position;
+  const Vec2 nominal = dcm_after_transfer(s.nominal_dcm, s.planned.position) - s.planned.position;
   EXPECT_LT((offset - nominal).norm(), 1e-12);
 }
 
@@ -75,7 +74,8 @@ TEST(StepAdjuster, StopsAtWhatTheLegReaches) {
   Parameters parameters;
   const auto far = adjust(forward_gait(0.8, 0.2, 0.7, {0.3, 0.3}), 0.7, parameters);
   EXPECT_DOUBLE_EQ(far.step.position.x(), 1.0 + parameters.max_step_length);
-  EXPECT_DOUBLE_EQ(far.step.position.y(), -parameters.min_step_width);  // never across the stance foot
+  EXPECT_DOUBLE_EQ(far.step.position.y(),
+                   -parameters.min_step_width);  // never across the stance foot
 }
 
 /// Time left at which a reachable foothold catches the DCM best.

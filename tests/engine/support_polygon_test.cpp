@@ -19,10 +19,11 @@ TEST(SupportPolygon, OneFootIsItsSole) {
 }
 
 TEST(SupportPolygon, TwoFeetAreTheirHull) {
-  const ConvexPolygon polygon = support_polygon(sole, {Vec3(0.0, 0.1, 0.0), 0.0}, {Vec3(0.3, -0.1, 0.0), 0.0});
+  const ConvexPolygon polygon =
+      support_polygon(sole, {Vec3(0.0, 0.1, 0.0), 0.0}, {Vec3(0.3, -0.1, 0.0), 0.0});
   EXPECT_EQ(polygon.size(), 6U);
-  EXPECT_GT(polygon.margin({0.15, 0.0}), 0.0);   // between the feet
-  EXPECT_LT(polygon.margin({0.3, 0.1}), 0.0);    // no foot is there
+  EXPECT_GT(polygon.margin({0.15, 0.0}), 0.0);  // between the feet
+  EXPECT_LT(polygon.margin({0.3, 0.1}), 0.0);   // no foot is there
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec2 a = polygon.vertex((i + 1) % 6) - polygon.vertex(i);
     const Vec2 b = polygon.vertex((i + 2) % 6) - polygon.vertex((i + 1) % 6);
@@ -31,7 +32,8 @@ TEST(SupportPolygon, TwoFeetAreTheirHull) {
 }
 
 TEST(SupportPolygon, FeetSideBySideHaveNoVertexTooMany) {
-  const ConvexPolygon polygon = support_polygon(sole, {Vec3(0.0, 0.1, 0.0), 0.0}, {Vec3(0.0, -0.1, 0.0), 0.0});
+  const ConvexPolygon polygon =
+      support_polygon(sole, {Vec3(0.0, 0.1, 0.0), 0.0}, {Vec3(0.0, -0.1, 0.0), 0.0});
   EXPECT_EQ(polygon.size(), 4U);
 }
 

@@ -22,7 +22,9 @@ Parameters quick() {
 class Walk {
  public:
   explicit Walk(const Parameters& parameters = quick())
-      : parameters_(parameters), omega_(natural_frequency(parameters)), engine_(parameters, start()) {}
+      : parameters_(parameters),
+        omega_(natural_frequency(parameters)),
+        engine_(parameters, start()) {}
 
   void run(double seconds) {
     const int ticks = static_cast<int>(std::lround(seconds / parameters_.tick));
@@ -56,7 +58,8 @@ class Walk {
     worst_velocity_jump_ = std::max(worst_velocity_jump_, jump.norm());
     last_velocity_ = t.com_velocity_reference;
     const Vec2 zmp = t.zmp_command;
-    mass_ = testing::integrate(mass_, [&](double) { return zmp; }, parameters_.tick, omega_, 1);
+    mass_ = testing::integrate(
+        mass_, [&](double) { return zmp; }, parameters_.tick, omega_, 1);
     for (std::size_t i = 0; i < 2; ++i) {
       if (!t.feet[i].in_contact) measurement_.feet[i] = {t.feet[i].position, t.feet[i].yaw};
       measurement_.foot_load[i] = measurement_.feet[i].position.z() <= 0.0 ? 150.0 : 0.0;

@@ -62,8 +62,8 @@ test('walk, stop and strategies', async () => {
   const patch = await server.request('PATCH', '/api/v1/strategies', { body: { step: false } });
   assert.deepEqual([patch.json.ankle, patch.json.step], [true, false]);
   assert.ok(Number.isInteger(patch.json.tick));
-  assert.deepEqual((await server.get('/api/v1/strategies')).json, { ankle: true, step: false });
-  assert.deepEqual((await server.state()).strategies, { ankle: true, step: false });
+  assert.deepEqual((await server.get('/api/v1/strategies')).json, { ankle: true, step: false, time: true });
+  assert.deepEqual((await server.state()).strategies, { ankle: true, step: false, time: true });
   await server.request('PATCH', '/api/v1/strategies', { body: { step: true } });
 });
 

@@ -24,7 +24,7 @@ TEST(TrialJson, OnlyTheRobotIsRequired) {
   EXPECT_EQ(spec.robot, "kasaei");
   EXPECT_EQ(spec.plant, sim::PlantKind::bullet);
   EXPECT_EQ(spec.seed, 1U);
-  EXPECT_TRUE(spec.strategies.ankle && spec.strategies.step);
+  EXPECT_TRUE(spec.strategies.ankle && spec.strategies.step && spec.strategies.time);
   EXPECT_FALSE(spec.push);
   EXPECT_THAT(errors_of("{}"), UnorderedElementsAre("/robot"));
 }
@@ -54,9 +54,9 @@ TEST(TrialJson, AnEmptyListOfStrategiesSwitchesAllOff) {
     return read_trial(sim::parse_json(text), errors).strategies;
   };
   EXPECT_EQ(read(R"({"robot":"a","strategies":[]})"),
-            (engine::Strategies{.ankle = false, .step = false}));
+            (engine::Strategies{.ankle = false, .hip = false, .step = false, .time = false}));
   EXPECT_EQ(read(R"({"robot":"a","strategies":["step"]})"),
-            (engine::Strategies{.ankle = false, .step = true}));
+            (engine::Strategies{.ankle = false, .hip = false, .step = true, .time = false}));
   EXPECT_TRUE(errors.empty());
   EXPECT_THAT(errors_of(R"({"robot":"a","strategies":["step","step"]})"),
               UnorderedElementsAre("/strategies"));

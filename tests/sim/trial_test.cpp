@@ -75,8 +75,10 @@ TEST_F(TrialTest, WithoutAPushItOnlyObserves) {
 }
 
 TEST_F(TrialTest, RepeatsToTheBit) {
-  EXPECT_EQ(run_trial(spec_with(6.0), robot).state_hash, run_trial(spec_with(6.0), robot).state_hash);
-  EXPECT_NE(run_trial(spec_with(6.0), robot).state_hash, run_trial(spec_with(6.1), robot).state_hash);
+  EXPECT_EQ(run_trial(spec_with(6.0), robot).state_hash,
+            run_trial(spec_with(6.0), robot).state_hash);
+  EXPECT_NE(run_trial(spec_with(6.0), robot).state_hash,
+            run_trial(spec_with(6.1), robot).state_hash);
 }
 
 }  // namespace

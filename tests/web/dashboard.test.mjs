@@ -47,7 +47,7 @@ describe('dashboard', () => {
   beforeEach(async () => {
     expected = [];
     await call(server, 'POST', '/simulation/reset', { plant: 'bullet' });
-    await call(server, 'PATCH', '/strategies', { ankle: true, step: true });
+    await call(server, 'PATCH', '/strategies', { ankle: true, step: true, time: true });
     await call(server, 'POST', '/simulation/resume', {});
     await call(server, 'POST', '/walk', { vx: 0, vy: 0, wz: 0 });
     page = await Dashboard.open(browser, server.url);
