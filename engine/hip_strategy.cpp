@@ -1,13 +1,14 @@
 #include "engine/hip_strategy.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace stagger::engine {
 namespace {
 
 /// Of what the ankle has to spare, the part that the return to upright may use up.
 constexpr double return_share = 0.5;
-/// Return to upright: a critically damped motion of this natural frequency [1/s].
+/// Return to upright: at most this rate for each radian of lean [1/s].
 constexpr double return_frequency = 4.0;
 
 }  // namespace
@@ -26,7 +27,7 @@ void HipStrategy::update(const std::array<Excess, 2>& excess, double spare, bool
   }
 }
 
-double HipStrategy::axis_torque(int axis, const Excess& excess, double spare) const {
+double HipStrategy::axis_torque(int axis, const Excess& excess, double spare) {
   const double angle = angle_[axis];
   const double rate = rate_[axis];
   const double most = hip_.torque;
@@ -46,13 +47,26 @@ double HipStrategy::axis_torque(int axis, const Excess& excess, double spare) co
     const double next_angle = angle + 0.5 * (rate + next_rate) * tick_;
     const double stopping = 0.5 * next_rate * std::abs(next_rate) * hip_.inertia / most;
     const bool room = way * (next_angle + stopping) <= hip_.angle && way * next_rate <= hip_.rate;
+    swing_[axis] = way;
     return room ? way * most : stop;
   }
 
-  if (rate * angle > 0.0) return stop;
-  const double home = -return_frequency * (return_frequency * angle + 2.0 * rate);
+  // The swing has done enough: brake as hard as was reckoned with.
+  if (swing_[axis] * rate > 0.0) return stop;
+  swing_[axis] = 0.0;
+
+  // What the ankle can make up for. Full braking only where gentle braking would run into the
+  // limit.
   const double gentle = std::min(most, return_share * std::max(spare, 0.0) * weight_);
-  return std::clamp(home * hip_.inertia, -gentle, gentle);
+  const double gentle_rate = std::sqrt(gentle / hip_.inertia * std::abs(angle));
+  const bool outwards = rate * angle > 0.0;
+  if (outwards && 2.0 * gentle * (hip_.angle - std::abs(angle)) < hip_.inertia * rate * rate) {
+    return stop;
+  }
+  // On the way home never faster than gentle braking can stop at upright.
+  const double home_rate = std::clamp(-return_frequency * angle, -gentle_rate, gentle_rate);
+  const double torque = hip_.inertia * 2.0 * return_frequency * (home_rate - rate);
+  return std::clamp(torque, -gentle, gentle);
 }
 
 }  // namespace stagger::engine

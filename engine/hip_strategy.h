@@ -26,18 +26,22 @@ class HipStrategy {
 
   /// Shift of the effective ZMP that acts this tick [m].
   const Vec2& zmp_shift() const { return shift_; }
+  /// +1 or -1 on an axis while a swing that way is under way, its braking included: the ZMP then
+  /// belongs at that edge of the foot, wherever the DCM is.
+  const Vec2& swing() const { return swing_; }
   /// Lean of the wheels: about +y for the first axis, about -x for the second [rad].
   const Vec2& angle() const { return angle_; }
   const Vec2& rate() const { return rate_; }  ///< [rad/s]
 
  private:
-  double axis_torque(int axis, const Excess& excess, double spare) const;
+  double axis_torque(int axis, const Excess& excess, double spare);
 
   HipParameters hip_;
   double weight_;  ///< m g [N]
   double omega_;
   double tick_;
   Vec2 shift_ = Vec2::Zero();
+  Vec2 swing_ = Vec2::Zero();
   Vec2 angle_ = Vec2::Zero();
   Vec2 rate_ = Vec2::Zero();
 };

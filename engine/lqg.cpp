@@ -69,19 +69,19 @@ void Lqg::estimate(const Vec2& com, const Vec2& dcm) {
   covariance_.diagonal().array() += process_;
 }
 
-Vec2 Lqg::control(const LqgReference& reference, const ConvexPolygon& polygon, const Vec2& shift,
+Vec2 Lqg::control(const LqgReference& reference, const ConvexPolygon& polygon, const HipAid& hip,
                   bool act, bool integrate) {
   const Vec2 com_error = com() - reference.com;
   const Vec2 dcm_error = dcm() - reference.dcm;
   Vec2 wanted = reference.zmp;
   if (act) {
-    wanted -=
-        feedback_(0) * com_error + feedback_(1) * dcm_error + feedback_(2) * integral_ + shift;
+    wanted -= feedback_(0) * com_error + feedback_(1) * dcm_error + feedback_(2) * integral_;
+    wanted += hip.swing - hip.shift;  // a metre in the direction of the swing: the edge of the foot
   }
   const Vec2 zmp = polygon.clamp(wanted);
   const bool clamped = (zmp - wanted).squaredNorm() > 0.0;
   if (act && integrate && !clamped) integral_ += tick_ * com_error;
-  state_ = (lipm_.a * state_ + lipm_.b * (zmp + shift).transpose()).eval();
+  state_ = (lipm_.a * state_ + lipm_.b * (zmp + hip.shift).transpose()).eval();
   return zmp;
 }
 

@@ -14,6 +14,12 @@ struct LqgReference {
   Vec2 zmp = Vec2::Zero();  ///< fed forward: without it eq. (8) as printed lags by metres
 };
 
+/// What the hips do for the balance this tick, world axes.
+struct HipAid {
+  Vec2 shift = Vec2::Zero();  ///< of the effective ZMP [m]
+  Vec2 swing = Vec2::Zero();  ///< direction in which they swing: the ZMP has to back them up there
+};
+
 /// Both axes at once; they share the gains. The estimator is fed with the clamped ZMP, so that it
 /// knows what the foot really did, and the integrator stops while the ZMP is clamped. A push is not
 /// in its model: when the innovations, averaged over some ticks, say that there was one, it trusts
@@ -32,7 +38,7 @@ class Lqg {
   /// ZMP command inside the polygon, and the prediction for the next tick. `shift` of the effective
   /// ZMP comes from the hips: the ankle need not do that part. `act` off leaves the ZMP at its
   /// reference (the ankle strategy is switched off).
-  Vec2 control(const LqgReference& reference, const ConvexPolygon& polygon, const Vec2& shift,
+  Vec2 control(const LqgReference& reference, const ConvexPolygon& polygon, const HipAid& hip,
                bool act, bool integrate);
 
   Vec2 com() const { return state_.row(0); }

@@ -115,8 +115,8 @@ const WalkingTargets& WalkingEngine::update(const Measurement& measurement) {
 
   const LqgReference reference{com_reference_, plan_.dcm(), plan_.zmp()};
   publish(reference);
-  targets_.zmp_command = lqg_.control(reference, polygon_, targets_.zmp_shift,
-                                      parameters_.strategies.ankle, !adjusting_);
+  targets_.zmp_command =
+      lqg_.control(reference, polygon_, hip_aid_, parameters_.strategies.ankle, !adjusting_);
   com_reference_ = plan_.advance_com(com_reference_, parameters_.tick, omega_);
   machine_.pass(parameters_.tick);
   return targets_;
@@ -318,7 +318,8 @@ void WalkingEngine::use_hip() {
     measure(lqg_.dcm(), polygon_, stance_.position, yaw, 1.0);
   }
   hip_.update(excess, polygon_.margin(targets_.zmp_command), parameters_.strategies.hip);
-  targets_.zmp_shift = rotated(hip_.zmp_shift(), yaw);
+  hip_aid_ = {rotated(hip_.zmp_shift(), yaw), rotated(hip_.swing(), yaw)};
+  targets_.zmp_shift = hip_aid_.shift;
   targets_.hip_angle = hip_.angle();
 }
 

@@ -78,6 +78,7 @@ class WalkingEngine {
   StateMachine machine_;
   Lqg lqg_;
   HipStrategy hip_;
+  HipAid hip_aid_;
   WalkCommand command_;
   StepTimes times_;  ///< nominal, of the steps to come
   std::array<Footstep, max_listed_steps> list_;

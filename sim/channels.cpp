@@ -9,6 +9,7 @@ using Values = std::vector<double>;
 
 std::vector<Component> components(std::initializer_list<const char*> names, const char* unit) {
   std::vector<Component> list;
+  list.reserve(names.size());
   for (const char* name : names) list.push_back({name, unit});
   return list;
 }
@@ -67,6 +68,7 @@ Channel joints(const char* name, const char* unit, const char* meaning,
                const std::vector<std::string>& names,
                std::array<double, max_joints> Frame::*member) {
   std::vector<Component> labels;
+  labels.reserve(names.size());
   for (const std::string& joint : names) labels.push_back({joint, unit});
   return {name, "joint", meaning, std::move(labels), 1, [member](const Frame& f, Values& out) {
             const auto& values = f.*member;

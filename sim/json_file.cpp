@@ -100,7 +100,7 @@ class Locator {
  public:
   explicit Locator(std::string_view text) : text_(text) {}
 
-  std::size_t find(std::vector<std::string> path) {
+  std::size_t find(const std::vector<std::string>& path) {
     skip_space();
     std::size_t found = at_;
     for (const std::string& step : path) {

@@ -32,14 +32,14 @@ TEST(Lqg, StaysInsideThePolygonAndKeepsTheIntegralThere) {
   const ConvexPolygon polygon = support_polygon(sole, foot_at(0.0, 0.0));
   for (int i = 0; i < 500; ++i) {
     lqg.estimate({0.0, 0.0}, {0.5, -0.3});
-    const Vec2 zmp = lqg.control({}, polygon, Vec2::Zero(), true, true);
+    const Vec2 zmp = lqg.control({}, polygon, {}, true, true);
     ASSERT_GE(polygon.margin(zmp), -1e-12);
   }
   // Once the error is gone the controller must not owe anything to the time it was saturated.
   lqg.estimate({0.0, 0.0}, {0.0, 0.0});
   for (int i = 0; i < 2000; ++i) {
     lqg.estimate({0.0, 0.0}, {0.0, 0.0});
-    lqg.control({}, polygon, Vec2::Zero(), true, true);
+    lqg.control({}, polygon, {}, true, true);
   }
   EXPECT_LT(lqg.dcm().norm(), 1e-3);
 }
@@ -56,7 +56,7 @@ TEST(Lqg, RemovesAConstantDisturbance) {
   Eigen::Matrix2d state = Eigen::Matrix2d::Zero();
   for (int i = 0; i < 30000; ++i) {
     lqg.estimate(state.row(0), state.row(1));
-    const Vec2 zmp = lqg.control({}, polygon, Vec2::Zero(), true, true) + bias;
+    const Vec2 zmp = lqg.control({}, polygon, {}, true, true) + bias;
     state = (plant.a * state + plant.b * zmp.transpose()).eval();
   }
   EXPECT_LT(std::abs(state(0, 0)), 2e-4);
@@ -67,7 +67,7 @@ TEST(Lqg, WithoutTheAnkleTheZmpIsThePlannedOne) {
   const ConvexPolygon polygon = support_polygon(Sole{0.075, 0.0375}, foot_at(0.0, 0.0));
   lqg.estimate({0.1, 0.0}, {0.2, 0.0});
   const LqgReference reference{{0.0, 0.0}, {0.0, 0.0}, {0.02, 0.01}};
-  EXPECT_EQ(lqg.control(reference, polygon, Vec2::Zero(), false, true), reference.zmp);
+  EXPECT_EQ(lqg.control(reference, polygon, {}, false, true), reference.zmp);
 }
 
 }  // namespace

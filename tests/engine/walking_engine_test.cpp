@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "tests/engine/integrate.h"
 
 namespace stagger::engine {
@@ -177,6 +179,66 @@ TEST(WalkingEngine, TheSwingFootGoesToTheAdjustedStep) {
   const Side landed = other(walk.engine().targets().support_side);
   // 0.2 / omega, magnified until touchdown and by the transfer: about 0.18 m.
   EXPECT_GT(walk.measurement().feet[index(landed)].position.x(), 0.12);
+}
+
+TEST(WalkingEngine, StepsSoonerWhenTheLongestStepIsTooShort) {
+  Parameters parameters = quick();
+  parameters.max_step_length = 0.3;
+  Strategies without_time;
+  without_time.time = false;
+  const auto survives = [&](const Strategies& strategies) {
+    Walk walk(parameters);
+    walk.engine().set_strategies(strategies);
+    walk.engine().walk({});
+    walk.run(4.05);
+    walk.run(0.1);  // 0.05 s into a single support
+    walk.push({0.75, 0.0});
+    walk.run(4.0);
+    return walk.dcm().norm() < 10.0;
+  };
+  EXPECT_FALSE(survives(without_time));
+  EXPECT_TRUE(survives({}));
+}
+
+TEST(WalkingEngine, KeepsTheNominalTimeWhileNothingIsWrong) {
+  Walk walk;
+  walk.engine().walk({0.2, 0.0, 0.0});
+  for (int i = 0; i < 5000; ++i) {
+    walk.run(0.001);
+    if (walk.engine().targets().state == WalkingState::single_support) {
+      ASSERT_NEAR(walk.engine().targets().t_ss, quick().t_ss, 1e-9) << i;
+    }
+  }
+}
+
+TEST(WalkingEngine, FollowsAListOfStepsAndStandsOnTheLastTwo) {
+  Walk walk;
+  walk.run(0.1);
+  const std::array<Footstep, 4> steps{
+      Footstep{{0.2, -0.1}, 0.0, Side::right}, Footstep{{0.4, 0.12}, 0.0, Side::left},
+      Footstep{{0.6, -0.08}, 0.0, Side::right}, Footstep{{0.6, 0.12}, 0.0, Side::left}};
+  ASSERT_EQ(walk.engine().follow(steps), WalkingEngine::StepListError::none);
+  walk.run(6.0);
+  EXPECT_EQ(walk.engine().targets().state, WalkingState::idle);
+  EXPECT_EQ(walk.engine().targets().step_count, 4U);
+  const auto& feet = walk.measurement().feet;
+  EXPECT_LT((feet[0].position.head<2>() - steps[3].position).norm(), 0.02);
+  EXPECT_LT((feet[1].position.head<2>() - steps[2].position).norm(), 0.02);
+  EXPECT_LT((walk.com() - Vec2(0.6, 0.02)).norm(), 0.02);
+}
+
+TEST(WalkingEngine, RefusesListsThatItCannotWalk) {
+  using Error = WalkingEngine::StepListError;
+  Walk walk;
+  walk.run(0.1);
+  const Footstep right{{0.2, -0.1}, 0.0, Side::right};
+  const Footstep far{{5.0, 0.1}, 0.0, Side::left};
+  EXPECT_EQ(walk.engine().follow(std::array{right, right}), Error::wrong_side);
+  EXPECT_EQ(walk.engine().follow(std::array{right, far}), Error::out_of_reach);
+  EXPECT_EQ(walk.engine().follow(std::vector<Footstep>(65, right)), Error::too_long);
+  walk.engine().walk({});
+  walk.run(1.0);
+  EXPECT_EQ(walk.engine().follow(std::array{right}), Error::walking);
 }
 
 }  // namespace
