@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -62,7 +63,8 @@ TEST(JsonFile, FindsTheLineOfAPointer) {
 }
 
 TEST(JsonFile, ErrorsNameFileLineAndField) {
-  const std::string file = testing::TempDir() + "json_file_test.json";
+  const std::string file =
+      testing::TempDir() + "json_file_test_" + std::to_string(getpid()) + ".json";
   std::ofstream(file) << "{\n  \"mass\": -1,\n  \"colour\": 3\n}\n";
   EXPECT_THAT(
       [&] {

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -24,13 +25,18 @@ using testing::HasSubstr;
 class ChangedRobot {
  public:
   ChangedRobot() {
-    folder_ = std::filesystem::path(testing::TempDir()) / "changed_robot";
+    // A folder of its own: tests run side by side.
+    folder_ =
+        std::filesystem::path(testing::TempDir()) / ("changed_robot_" + std::to_string(getpid()));
     std::filesystem::create_directories(folder_);
     std::filesystem::copy_file("robots/kasaei/robot.urdf", folder_ / "robot.urdf",
                                std::filesystem::copy_options::overwrite_existing);
     std::ifstream("robots/kasaei/robot.json") >> description;
   }
-  ~ChangedRobot() { std::filesystem::remove_all(folder_); }
+  ~ChangedRobot() {
+    std::error_code ignored;  // a destructor may not throw
+    std::filesystem::remove_all(folder_, ignored);
+  }
   ChangedRobot(const ChangedRobot&) = delete;
   ChangedRobot& operator=(const ChangedRobot&) = delete;
 
