@@ -29,10 +29,8 @@ class Lqg {
   /// Throws std::invalid_argument when the weights have no stabilising gain.
   explicit Lqg(const Parameters& parameters);
 
-  /// Forgets the past; the estimate starts at the first measurement.
-  void reset() { started_ = false; }
-
-  /// Takes the measured CoM and DCM into the estimate. Call once a tick, before control().
+  /// Takes the measured CoM and DCM into the estimate, which starts at the first of them. Call once
+  /// a tick, before control().
   void estimate(const Vec2& com, const Vec2& dcm);
 
   /// ZMP command inside the polygon, and the prediction for the next tick. `shift` of the effective

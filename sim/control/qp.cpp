@@ -21,9 +21,8 @@ void QpSolver::directions(const Eigen::Ref<const Eigen::VectorXd>& normal) {
   }
 }
 
-bool QpSolver::add(const Eigen::VectorXd& d_in) {
+bool QpSolver::add_constraint() {
   // Rotate the tail of d onto its first entry; the same rotations keep J's columns consistent.
-  if (&d_in != &d_) d_ = d_in;
   const Eigen::Index q = active_count_;
   for (Eigen::Index i = n_ - 1; i > q; --i) {
     const double a = d_[i - 1];
@@ -115,7 +114,7 @@ QpStatus QpSolver::solve(const QpProblem& problem) {
     u_.head(active_count_) -= t * dual_.head(active_count_);
     u_[active_count_] = t;
     active_.push_back(-1 - i);
-    if (!add(d_)) return QpStatus::infeasible;
+    if (!add_constraint()) return QpStatus::infeasible;
   }
 
   const int most = 20 * static_cast<int>(n_ + inequalities_);
@@ -163,7 +162,7 @@ QpStatus QpSolver::solve(const QpProblem& problem) {
       if (t == full) {
         active_.push_back(worst);
         is_active_[static_cast<std::size_t>(worst)] = 1;
-        if (!add(d_)) return QpStatus::out_of_steps;
+        if (!add_constraint()) return QpStatus::out_of_steps;
         break;
       }
       drop(leaver);

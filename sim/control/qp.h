@@ -38,8 +38,11 @@ class QpSolver {
   int iterations() const { return iterations_; }
 
  private:
-  bool add(const Eigen::VectorXd& d);
+  /// Takes in the constraint that directions() was last called for; false when its normal depends
+  /// on the active ones.
+  bool add_constraint();
   void drop(Eigen::Index position);
+  /// Steps of the variables and of the active multipliers towards a constraint of this normal.
   void directions(const Eigen::Ref<const Eigen::VectorXd>& normal);
 
   Eigen::Index n_ = 0;

@@ -1,7 +1,7 @@
-// Tier 2: the engine on the point mass against the bound of what any controller could do there. The
-// bound for an impulsive forward push, stepping in place, N steps of length l, half foot h, time
-// left t and step times T: zeta_0 = h + (l + d_{N-1} - h) e^{-w t}, d_N the same with a whole
-// step's time.
+// Tier 2: the engine on the point mass against the bound of what any controller could do there. For
+// an impulsive forward push, stepping in place, steps of length l, half foot h, time left t: the
+// DCM may be at most zeta_0 = h + (l + (d - h) e^{-w Tds}) e^{-w t} from the stance foot, where d
+// is the same bound for the step after, with a whole step's time.
 #include <gtest/gtest.h>
 
 #include "engine/walking_engine.h"
@@ -57,21 +57,21 @@ bool survives(double force, const Timing& timing, const engine::Strategies& stra
   return pushed >= 0;
 }
 
-/// Force [N] of 10 ms that no controller survives with ever so many steps of 0.95 m.
+/// Force [N] of 10 ms that no controller survives with ever so many steps of 0.95 m, each of them
+/// `sooner` than nominal.
 double ceiling(const Timing& timing, bool steps, double sooner) {
   const double h = 0.075;
   const double l = 0.95;
-  double d = h;
-  const double t_ss = timing.t_ss - sooner;
-  for (int n = 0; steps && n < 50; ++n) {
-    d = h + (l + (d - h) * std::exp(-omega * timing.t_ds) - 0.0) * std::exp(-omega * t_ss);
-  }
   const double push = push_ticks * tick;
-  const double last = steps ? (l + (d - h) * std::exp(-omega * timing.t_ds)) *
-                                  std::exp(-omega * (timing.left - sooner - push))
-                            : 0.0;
+  // How far from the next stance foot the DCM may be at its lift-off: d = h with no step left.
+  double d = h;
+  const auto before_step = [&](double time) {
+    return (l + (d - h) * std::exp(-omega * timing.t_ds)) * std::exp(-omega * time);
+  };
+  for (int n = 0; n < 50; ++n) d = h + before_step(timing.t_ss - sooner);
+  const double stepping = steps ? before_step(timing.left - sooner - push) : 0.0;
   const double jump = (std::exp(omega * push) - 1.0) / (30.0 * omega * omega);
-  return (h + last + h * (std::exp(omega * push) - 1.0)) / jump;
+  return (h * std::exp(omega * push) + stepping) / jump;
 }
 
 constexpr engine::Strategies ankle{.ankle = true, .hip = false, .step = false, .time = false};
