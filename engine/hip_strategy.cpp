@@ -8,6 +8,8 @@ namespace {
 
 /// Of what the ankle has to spare, the part that the return to upright may use up.
 constexpr double return_share = 0.5;
+/// How far inside a swing leaves the DCM if it can, as a part of the area's width.
+constexpr double swing_reserve = 0.15;
 /// Return to upright: at most this rate for each radian of lean [1/s].
 constexpr double return_frequency = 4.0;
 
@@ -27,6 +29,20 @@ void HipStrategy::update(const std::array<Excess, 2>& excess, double spare, bool
   }
 }
 
+double HipStrategy::outward_torque(double angle, double rate) const {
+  // The rate after this tick from which full braking stops at the limit: angle' + rate'^2 J / (2
+  // tau) = limit with angle' = angle + (rate + rate') dt / 2. The last part of a tick in which the
+  // wheel comes to rest takes it this much farther:
+  const double rounding = hip_.torque / hip_.inertia * tick_ * tick_ / 8.0;
+  const double room = hip_.angle - rounding - angle - 0.5 * rate * tick_;
+  const double braking = hip_.torque / hip_.inertia;
+  const double half = 0.5 * braking * tick_;
+  const double root = half * half + 2.0 * braking * room;
+  const double next = root > half * half ? std::sqrt(root) - half : 0.0;
+  const double torque = (std::min(next, hip_.rate) - rate) * hip_.inertia / tick_;
+  return std::clamp(torque, -hip_.torque, hip_.torque);
+}
+
 double HipStrategy::axis_torque(int axis, const Excess& excess, double spare) {
   const double angle = angle_[axis];
   const double rate = rate_[axis];
@@ -36,19 +52,17 @@ double HipStrategy::axis_torque(int axis, const Excess& excess, double spare) {
 
   for (const double way : {1.0, -1.0}) {
     const double beyond = way > 0.0 ? excess.plus : excess.minus;
+    const double width = -(excess.plus + excess.minus);
     const bool turning = way * rate > 0.0;
     if (beyond <= 0.0 && !turning) continue;
-    // While the wheel brakes it drives the DCM out again: by then it must be this far inside.
+    // While the wheel brakes it drives the DCM out again: by then it must be this far inside. From
+    // the very edge it would take for ever to come back.
     const double braking_time = turning ? std::abs(rate) * hip_.inertia / most : 0.0;
-    const double needed = most / weight_ * -std::expm1(-omega_ * braking_time);
+    const double needed = most / weight_ * -std::expm1(-omega_ * braking_time) +
+                          (swing_[axis] == way ? swing_reserve * width : 0.0);
     if (beyond + needed <= 0.0) continue;
-    // One more tick of full torque, if the wheel can then still be stopped inside its limits.
-    const double next_rate = rate + way * most * tick_ / hip_.inertia;
-    const double next_angle = angle + 0.5 * (rate + next_rate) * tick_;
-    const double stopping = 0.5 * next_rate * std::abs(next_rate) * hip_.inertia / most;
-    const bool room = way * (next_angle + stopping) <= hip_.angle && way * next_rate <= hip_.rate;
     swing_[axis] = way;
-    return room ? way * most : stop;
+    return way * outward_torque(way * angle, way * rate);
   }
 
   // The swing has done enough: brake as hard as was reckoned with.

@@ -34,6 +34,8 @@ class HipStrategy {
   const Vec2& rate() const { return rate_; }  ///< [rad/s]
 
  private:
+  /// For a lean counted positive outwards: all that still lets the wheel stop inside its limits.
+  double outward_torque(double angle, double rate) const;
   double axis_torque(int axis, const Excess& excess, double spare);
 
   HipParameters hip_;

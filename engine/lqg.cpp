@@ -47,6 +47,9 @@ void Lqg::estimate(const Vec2& com, const Vec2& dcm) {
   measured.row(1) = dcm;
   if (!started_) {
     state_ = measured;
+    // No better known than one measurement tells: the next ones count as much.
+    covariance_ = measurement_ * lipm_.a * lipm_.a.transpose();
+    covariance_.diagonal().array() += process_;
     integral_.setZero();
     innovation_.setZero();
     started_ = true;

@@ -29,12 +29,12 @@ WalkingEngine::WalkingEngine(const Parameters& parameters, const Measurement& st
       lqg_(parameters),
       hip_(parameters.hip, parameters.mass * parameters.gravity, omega_, parameters.tick),
       times_(step_times({}, parameters)),
-      standing_(start.feet),
-      com_reference_(start.com.head<2>()) {
+      standing_(start.feet) {
   stance_ = footstep(start.feet[index(Side::left)], Side::left);
   landed_ = footstep(start.feet[index(Side::right)], Side::right);
   planned_ = landed_;
   swing_goal_ = landed_;
+  com_reference_ = middle();
   polygon_ = engine::support_polygon(sole_, start.feet[0], start.feet[1]);
 }
 

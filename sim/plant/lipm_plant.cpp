@@ -117,8 +117,10 @@ void LipmPlant::step(const engine::WalkingTargets& targets, std::span<const Appl
 
   // The weight on each foot follows from where the ZMP is between the feet.
   const Vec2 between = (feet[1].position - feet[0].position).head<2>();
-  const double along = (zmp - feet[0].position.head<2>()).dot(between) / between.squaredNorm();
-  const double right = std::clamp(along, 0.0, 1.0);
+  const double along = (zmp - feet[0].position.head<2>()).dot(between);
+  // Feet in one place share the load.
+  const double apart = between.squaredNorm();
+  const double right = apart > 0.0 ? std::clamp(along / apart, 0.0, 1.0) : 0.5;
   const double weight = parameters_.mass * parameters_.gravity;
   if (single) {
     // A foot without mass is down when its plan says so: by the end of this tick. Its share of the

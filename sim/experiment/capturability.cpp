@@ -1,0 +1,64 @@
+#include "sim/experiment/capturability.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stagger::sim {
+namespace {
+
+/// DCM at touchdown, from the left stance foot, such that the DCM at the next lift-off can be in
+/// the mirror image of `next`, relative to the new foot.
+ConvexSet at_touchdown(const StepAbility& ability, const ConvexSet& next) {
+  // In double support the ZMP is free in the hull of both soles: from l f + sole, 0 <= l <= 1.
+  // zeta_TD = a (f + next) + (1 - a)(l f + sole), a = e^{-w Tds}; over all l the factor of f runs
+  // from a to 1, and the union of a * reach to 1 * reach is the hull of the two.
+  const double a = std::exp(-ability.omega * ability.t_ds);
+  const ConvexSet feet = hull_of(scaled(ability.reach, a), ability.reach);
+  return minkowski_sum(minkowski_sum(feet, scaled(mirrored(next), a)),
+                       scaled(ability.sole, 1.0 - a));
+}
+
+/// DCM `time` before one in `end`, the ZMP being free inside the sole.
+ConvexSet before(const StepAbility& ability, const ConvexSet& end, double time) {
+  const double g = std::exp(-ability.omega * time);
+  return minkowski_sum(scaled(end, g), scaled(ability.sole, 1.0 - g));
+}
+
+ConvexSet before(const StepAbility& ability, const ConvexSet& end, double earliest, double latest) {
+  const ConvexSet soon = before(ability, end, earliest);
+  if (latest <= earliest) return soon;
+  // In between every point moves on a straight line from the one to the other.
+  return hull_of(soon, before(ability, end, latest));
+}
+
+}  // namespace
+
+ConvexSet viable_dcm(const StepAbility& ability) {
+  // A contraction by e^{-w (Tss + Tds)} a step: it converges from wherever it begins.
+  const double shortest = ability.t_ss - ability.sooner;
+  const double decay = ability.omega * (shortest + ability.t_ds);
+  constexpr double digits = 32.0;  // e^-32: below the nanometre that hulls are rounded to
+  const int steps = static_cast<int>(std::ceil(digits / decay));
+  ConvexSet viable = ability.sole;
+  for (int i = 0; i < steps; ++i) {
+    viable = before(ability, at_touchdown(ability, viable), shortest, ability.t_ss + ability.later);
+  }
+  return viable;
+}
+
+ConvexSet viable_dcm(const StepAbility& ability, double earliest, double latest) {
+  return before(ability, at_touchdown(ability, viable_dcm(ability)), earliest, latest);
+}
+
+double push_ceiling(const StepAbility& ability, const CeilingPush& push) {
+  const double left = push.t_left - push.duration;
+  const double earliest = std::max(left - ability.sooner, 0.0);
+  const ConvexSet after = viable_dcm(ability, earliest, std::max(left + ability.later, earliest));
+  // zeta' = E zeta - (E - 1) p + (E - 1) / (m w^2) F with E = e^{w duration}.
+  const double growth = std::expm1(ability.omega * push.duration);
+  const ConvexSet jump =
+      shifted(minkowski_sum(after, scaled(ability.sole, growth)), -(1.0 + growth) * push.dcm);
+  return ray_exit(jump, push.direction) * push.mass * ability.omega * ability.omega / growth;
+}
+
+}  // namespace stagger::sim

@@ -1,0 +1,209 @@
+#include "sim/experiment/paper/stepping.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/reference.h"
+#include "sim/experiment/capturability.h"
+#include "sim/experiment/parallel.h"
+
+namespace stagger::sim {
+namespace {
+
+/// The push comes in the third step: by then the gait has forgotten its start.
+constexpr std::uint64_t steps_before_push = 2;
+constexpr double watch_s = 6.0;
+
+Vec2 unit(double direction) { return {std::cos(direction), std::sin(direction)}; }
+
+ConvexSet corners(const engine::ConvexPolygon& polygon) {
+  ConvexSet set;
+  for (std::size_t i = 0; i < polygon.size(); ++i) set.push_back(polygon.vertex(i));
+  return set;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+double& of(StrategyForces& forces, SteppingStrategy strategy) {
+  switch (strategy) {
+    case SteppingStrategy::ankle:
+      return forces.ankle;
+    case SteppingStrategy::location:
+      return forces.location;
+    case SteppingStrategy::time:
+      break;
+  }
+  return forces.time;
+}
+
+}  // namespace
+
+engine::Strategies strategies_of(SteppingStrategy strategy) {
+  return {.ankle = true,
+          .hip = false,
+          .step = strategy != SteppingStrategy::ankle,
+          .time = strategy == SteppingStrategy::time};
+}
+
+std::vector<PushTiming> stepping_timings() {
+  return {{0.8, 0.2, 0.6}, {0.8, 0.2, 0.8}, {1.0, 0.0, 0.8}, {1.0, 0.2, 1.0}, {1.2, 0.2, 1.2}};
+}
+
+SteppingSetup stepping_setup(const PushTiming& timing, SteppingStrategy strategy, double noise,
+                             std::uint64_t seed, const ModelError& error) {
+  SteppingSetup setup;
+  setup.parameters = paper_parameters(noise);
+  setup.parameters.t_ss = timing.t_ss;
+  setup.parameters.t_ds = timing.t_ds;
+  setup.parameters.strategies = strategies_of(strategy);
+  setup.truth = paper_plant(noise, seed);
+  setup.truth.mass *= error.mass;
+  setup.truth.com_height *= error.com_height;
+  setup.truth.delay = error.delay;
+  setup.t_left = timing.t_left;
+  return setup;
+}
+
+SteppingOutcome run_stepping(const SteppingSetup& setup, double force, Trace* trace) {
+  ClosedLoop loop(setup.parameters, setup.truth);
+  const double tick = setup.parameters.tick;
+  const int push_ticks = static_cast<int>(std::lround(push_duration / tick));
+  const int watch_ticks = static_cast<int>(std::lround(watch_s / tick));
+  // By then the push's step is long over, whatever the noise did to the timing.
+  const double step = setup.parameters.t_ss + setup.parameters.t_ds;
+  const int latest = static_cast<int>((setup.parameters.t_init + 5.0 * step) / tick);
+
+  SteppingOutcome outcome;
+  const auto tick_once = [&](double f) -> const engine::WalkingTargets& {
+    const engine::WalkingTargets& t = loop.tick(f * unit(setup.direction));
+    if (trace != nullptr) trace->push_back(loop.sample());
+    return t;
+  };
+  const auto pushed_now = [&](const engine::WalkingTargets& t) {
+    // Told of the tick that has just passed: the push is to begin with the next one. The nominal
+    // time counts, whatever noise has done to the step's.
+    return t.state == WalkingState::single_support && t.step_count == steps_before_push &&
+           setup.parameters.t_ss - t.phase_time - tick <= setup.t_left + 1e-9;
+  };
+
+  loop.engine().walk({});
+  int i = 0;
+  while (i++ < latest && !pushed_now(tick_once(0.0))) {
+    if (!loop.plant().fall_reason().empty()) break;
+  }
+  const Vec2 stance = loop.plant().truth().feet[engine::index(Side::left)].position.head<2>();
+  bool landed = false;
+  for (i = 0; i < watch_ticks; ++i) {
+    const engine::WalkingTargets& t = tick_once(i < push_ticks ? force : 0.0);
+    if (!landed && t.step_count > steps_before_push) {
+      landed = true;
+      outcome.time_change = t.t_ss - setup.parameters.t_ss;
+      outcome.landing =
+          loop.plant().truth().feet[engine::index(Side::right)].position.x() - stance.x();
+    }
+    if (!loop.plant().fall_reason().empty()) {
+      outcome.fell = true;
+      break;
+    }
+  }
+  return outcome;
+}
+
+double stepping_ceiling(const SteppingSetup& setup, SteppingStrategy strategy) {
+  const engine::Parameters& p = setup.parameters;
+  const double omega = engine::natural_frequency(p);
+  const engine::ReachRegion reach(p);
+  StepAbility ability;
+  ability.omega = omega;
+  ability.sole = {{-p.foot_half_length, -p.foot_half_width},
+                  {p.foot_half_length, -p.foot_half_width},
+                  {p.foot_half_length, p.foot_half_width},
+                  {-p.foot_half_length, p.foot_half_width}};
+  ability.reach = {{0.0, -p.stance_width}};
+  if (strategy != SteppingStrategy::ankle) ability.reach = corners(reach.polygon(Side::left));
+  ability.t_ss = p.t_ss;
+  ability.t_ds = p.t_ds;
+  if (strategy == SteppingStrategy::time) ability.sooner = ability.later = p.time_limit;
+
+  CeilingPush push;
+  push.direction = unit(setup.direction);
+  push.duration = push_duration;
+  push.t_left = setup.t_left;
+  push.mass = setup.truth.mass;
+  const Vec2 step(0.0, -p.stance_width);
+  push.dcm = engine::periodic_dcm_offset(step, -step, p.t_ss, p.t_ds, omega) *
+             std::exp(omega * (p.t_ss - setup.t_left));
+  return push_ceiling(ability, push);
+}
+
+double first_fall(const SteppingSetup& setup, double ceiling, int rungs) {
+  const double top = 1.05 * ceiling;
+  double pass = 0.0;
+  double fail = top;
+  for (int rung = 1; rung <= rungs; ++rung) {
+    fail = top * rung / rungs;
+    if (run_stepping(setup, fail).fell) break;
+    pass = fail;
+  }
+  constexpr double resolution = 5e-4;  // of the ceiling
+  while (fail - pass > resolution * ceiling) {
+    const double middle = 0.5 * (pass + fail);
+    (run_stepping(setup, middle).fell ? fail : pass) = middle;
+  }
+  return fail;
+}
+
+std::vector<SteppingLimits> stepping_limits(
+    const std::vector<std::pair<PushTiming, double>>& conditions, int noise_seeds) {
+  struct Search {
+    std::size_t condition;
+    SteppingStrategy strategy;
+    int seed;  ///< 0: no noise
+  };
+  std::vector<Search> searches;
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    for (const SteppingStrategy strategy : stepping_strategies) {
+      for (int seed = 0; seed <= noise_seeds; ++seed) searches.push_back({i, strategy, seed});
+    }
+  }
+  struct Found {
+    double fall = 0.0;
+    double ceiling = 0.0;
+  };
+  const auto found = parallel_map(searches, [&](const Search& search) {
+    const auto& [timing, direction] = conditions[search.condition];
+    SteppingSetup setup =
+        stepping_setup(timing, search.strategy, search.seed > 0 ? paper_noise : 0.0,
+                       static_cast<std::uint64_t>(search.seed));
+    setup.direction = direction;
+    Found result;
+    result.ceiling = stepping_ceiling(setup, search.strategy);
+    result.fall = first_fall(setup, result.ceiling, search.seed > 0 ? 21 : 42);
+    return result;
+  });
+
+  std::vector<SteppingLimits> limits;
+  for (const auto& [timing, direction] : conditions) {
+    limits.push_back({timing, direction, {}, {}, {}, noise_seeds});
+  }
+  std::vector<double> noisy;
+  for (std::size_t i = 0; i < searches.size(); ++i) {
+    const Search& search = searches[i];
+    SteppingLimits& limit = limits[search.condition];
+    if (search.seed == 0) {
+      of(limit.fall, search.strategy) = found[i].fall;
+      of(limit.ceiling, search.strategy) = found[i].ceiling;
+      noisy.clear();
+    } else {
+      noisy.push_back(found[i].fall);
+      if (search.seed == noise_seeds) of(limit.noise_median, search.strategy) = median(noisy);
+    }
+  }
+  return limits;
+}
+
+}  // namespace stagger::sim
