@@ -64,6 +64,7 @@ TEST(LipmPeersStepTiming, OursCapturesAllThatTheQuadraticProgrammeDoes) {
     EXPECT_GE(c.ours.least_reserve, c.qp.least_reserve - 1e-6);
     EXPECT_GT(c.ours.mean_reserve, c.qp.mean_reserve);
     EXPECT_LT(c.ours.offset_error_rms, c.qp.offset_error_rms);
+    EXPECT_EQ(c.qp_nearer, 0u);
   }
 }
 
