@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "engine/capture_region.h"
 #include "engine/hip_strategy.h"
 #include "engine/lqg.h"
 #include "engine/measurement.h"
@@ -53,6 +54,7 @@ class WalkingEngine {
   const ConvexPolygon& support_polygon() const { return polygon_; }
   const StateMachine& state_machine() const { return machine_; }
   const ReachRegion& reach() const { return reach_; }
+  const CaptureRegion& capture_region() const { return capture_; }
   const Lqg& lqg() const { return lqg_; }
 
  private:
@@ -62,8 +64,12 @@ class WalkingEngine {
   void plan_steps(const Footstep& first_stance, std::size_t first);
   void plan_reference();
   void adjust();
+  void adjust_step_time(StepSituation now);
+  /// Fills in the ankle's part of the catch, `left` before touchdown [s].
+  void lean_on_ankle(StepSituation& now, double left) const;
   /// `next` is the foothold that plan_ has been made for.
   StepSituation situation(const Footstep& next) const;
+  DcmGoal goal() const;
   void move_swing_foot();
   void use_hip();
   void publish(const LqgReference& reference);
@@ -75,6 +81,7 @@ class WalkingEngine {
   double omega_;
   Sole sole_;
   ReachRegion reach_;
+  CaptureRegion capture_;
   StateMachine machine_;
   Lqg lqg_;
   HipStrategy hip_;
