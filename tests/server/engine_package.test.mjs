@@ -1,6 +1,6 @@
 // The engine as others get it: installed, found by an outside project, linked into a controller.
-// Each build is tried with the flags that it was made with; a sanitizer's library would not link
-// into a program without them.
+// Each build is tried with the flags that it was made with: a sanitizer's library would not link
+// into a program without them, nor one for another instruction set.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
@@ -13,7 +13,8 @@ const build = path.dirname(path.dirname(binary));
 const cache = fs.readFileSync(path.join(build, 'CMakeCache.txt'), 'utf8');
 const cached = (name) => cache.match(RegExp(`^${name}:[A-Z]+=(.*)$`, 'm'))?.[1] ?? '';
 const type = cached('CMAKE_BUILD_TYPE');
-const flags = `${cached('CMAKE_CXX_FLAGS')} ${cached(`CMAKE_CXX_FLAGS_${type.toUpperCase()}`)}`;
+const flags = [cached('CMAKE_CXX_FLAGS'), cached(`CMAKE_CXX_FLAGS_${type.toUpperCase()}`),
+  cached('STAGGER_NATIVE') === 'ON' ? '-march=native' : ''].join(' ');
 
 const temporary = fs.mkdtempSync(path.join(os.tmpdir(), 'stagger-package-'));
 const prefix = path.join(temporary, 'installed');
