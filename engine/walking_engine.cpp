@@ -15,11 +15,11 @@ Footstep footstep(const FootPose& pose, Side side) {
 
 }  // namespace
 
-WalkingEngine::WalkingEngine(const Parameters& parameters, const Measurement& start)
+WalkingEngine::WalkingEngine(const Parameters& parameters, const Measurement& start, Layout)
     : WalkingEngine(parameters, start, ReachRegion(parameters)) {}
 
 WalkingEngine::WalkingEngine(const Parameters& parameters, const Measurement& start,
-                             const ReachRegion& reach)
+                             const ReachRegion& reach, Layout)
     : parameters_(parameters),
       omega_(natural_frequency(parameters)),
       sole_{parameters.foot_half_length - parameters.sole_margin,

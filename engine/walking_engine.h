@@ -18,6 +18,13 @@
 
 namespace stagger::engine {
 
+/// Where the compiler may place a fixed-size matrix depends on the instruction set that it compiles
+/// for (-march), and with it the layout of the engine. As a parameter of the constructors this
+/// keeps a program from linking a library of another layout; it would run, on shifted fields.
+template <std::size_t Bytes>
+struct MatrixAlignment {};
+using Layout = MatrixAlignment<EIGEN_MAX_STATIC_ALIGN_BYTES>;
+
 /// The walking engine of Kasaei, Lau and Pereira (IROS 2019). Knows no clock: call update() once a
 /// control period. After construction it takes no memory, throws nothing and locks nothing.
 class WalkingEngine {
@@ -34,9 +41,10 @@ class WalkingEngine {
 
   /// Stands on the feet of `start`. Throws std::invalid_argument when the parameters have no
   /// stabilising controller.
-  WalkingEngine(const Parameters& parameters, const Measurement& start);
+  WalkingEngine(const Parameters& parameters, const Measurement& start, Layout layout = {});
   /// The same with a region of footholds of one's own, e.g. from the leg's kinematics.
-  WalkingEngine(const Parameters& parameters, const Measurement& start, const ReachRegion& reach);
+  WalkingEngine(const Parameters& parameters, const Measurement& start, const ReachRegion& reach,
+                Layout layout = {});
 
   /// Starts walking or changes the velocity in mid-walk; the step under way lands as planned.
   void walk(const WalkCommand& command);
