@@ -200,7 +200,8 @@ double landing_after(double push, double ankle_share) {
 }
 
 TEST(WalkingEngine, TheAnkleDoesItsShareOfTheCatch) {
-  // 0.05 m/s need the ZMP 2 cm ahead until touchdown: less than 0.3 of the sole, so no step changes.
+  // 0.05 m/s need the ZMP 2 cm ahead until touchdown: less than 0.3 of the sole, so no step
+  // changes.
   EXPECT_NEAR(landing_after(0.05, 0.3), 0.0, 1e-9);
   EXPECT_GT(landing_after(0.05, 0.0), 0.02);
   // A harder push takes both: a shorter step than without the ankle, and a step all the same.
