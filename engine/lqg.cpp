@@ -45,7 +45,8 @@ void Lqg::estimate(const Vec2& com, const Vec2& dcm) {
   Eigen::Matrix2d measured;
   measured.row(0) = com;
   measured.row(1) = dcm;
-  if (!started_) {
+  constexpr double lost = 1e6;  // a prediction without measurements runs away [m]
+  if (!started_ || !(state_.cwiseAbs().maxCoeff() < lost)) {
     state_ = measured;
     integral_.setZero();
     innovation_.setZero();
