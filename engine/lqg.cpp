@@ -48,7 +48,8 @@ void Lqg::estimate(const Vec2& com, const Vec2& dcm) {
   Eigen::Matrix2d measured;
   measured.row(0) = com;
   measured.row(1) = dcm;
-  if (!started_) {
+  constexpr double lost = 1e6;  // a prediction without measurements runs away [m]
+  if (!started_ || !(state_.cwiseAbs().maxCoeff() < lost)) {
     state_ = measured;
     // No better known than one measurement tells: the next ones count as much.
     covariance_ = measurement_ * lipm_.a * lipm_.a.transpose();

@@ -47,8 +47,15 @@ struct Parameters {
   double sole_margin = 0.0;  ///< kept free inside the sole's edge when the ZMP is clamped [m]
 
   double max_step_length = 0.95;  ///< |x| of a step in the stance foot's frame [m]
-  double min_step_width = 0.10;   ///< least lateral distance of the feet, no crossing [m]
+  double min_step_width = 0.10;   ///< least lateral distance of the feet [m]
   double max_step_width = 0.60;   ///< greatest lateral distance of the feet [m]
+  double max_step_turn = 0.6;     ///< |yaw| of a step in the stance foot's frame [rad]
+  double foot_clearance = 0.01;   ///< least gap between the two soles [m]
+  /// Lets min_step_width be less than what keeps the soles apart side by side, and negative: the
+  /// foot may then land straight before or behind the stance foot, or so far on its other side. The
+  /// soles still never overlap. For adjusted steps and step lists; a commanded velocity does not
+  /// cross the feet. Nothing here keeps the legs from touching on the swing foot's way across.
+  bool allow_crossing = false;
 
   // LQG weights, scaled by the control period: diag(CoM error, DCM error, integral of CoM error),
   // ZMP.
@@ -74,6 +81,10 @@ struct Parameters {
   HipParameters hip;
   Strategies strategies;
 };
+
+/// Throws std::invalid_argument, naming field, value and allowed range, at the first value that is
+/// not finite, out of its range, or does not go with another.
+void validate(const Parameters& parameters);
 
 /// sqrt((g + zdd) / z_c) with zdd = 0: natural frequency of the LIPM [1/s]; eq. (2).
 inline double natural_frequency(const Parameters& p) { return std::sqrt(p.gravity / p.com_height); }

@@ -194,11 +194,12 @@ class Everything {
   }
 
   void follow() {
-    const Parameters& p = engine_.parameters();
     std::array<Footstep, 5> steps;
+    const StepPattern pattern =
+        step_pattern({0.1, 0.0, 0.1}, engine_.reach(), engine_.parameters());
     Footstep from{measurement_.feet[0].position.head<2>(), measurement_.feet[0].yaw, Side::left};
     for (Footstep& step : steps) {
-      step = next_footstep(from, {0.1, 0.0, 0.1}, p.t_ss + p.t_ds, p.stance_width, engine_.reach());
+      step = next_footstep(from, pattern);
       from = step;
     }
     Footstep far = steps[0];
