@@ -343,6 +343,7 @@ StepSituation WalkingEngine::situation(const Footstep& next) const {
 }
 
 void WalkingEngine::adjust() {
+  const double planned_t_ss = machine_.t_ss();
   if (machine_.single_support_left() <= parameters_.step_freeze) {
     steps_[0] = swing_goal_;
   } else {
@@ -357,6 +358,9 @@ void WalkingEngine::adjust() {
     }
   }
   // The plan has to be of the step that is really taken: then the reference meets the DCM.
+  const bool as_planned = steps_[0].position == planned_.position &&
+                          steps_[0].yaw == planned_.yaw && machine_.t_ss() == planned_t_ss;
+  if (as_planned) return;
   plan_steps(steps_[0], 1);
   plan_reference();
 }
