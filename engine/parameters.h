@@ -68,7 +68,7 @@ struct Parameters {
   /// Share of the sole by which the ankle is reckoned to move the ZMP before a step is adjusted.
   double ankle_share = 0.3;
   double step_gain = 1.0;     ///< k_sa of eq. (11)
-  double step_margin = 0.10;  ///< compliance margin on |Delta_f| [m]
+  double step_margin = 0.03;  ///< compliance margin on |Delta_f| [m]
   double step_freeze = 0.06;  ///< place and time stay as they are in the last part of the swing [s]
   double time_limit = 0.2;    ///< |adjusted - nominal| single support duration [s]
   double time_constant = 0.04;  ///< of the lag filter of eq. (13): k_f = tick / time_constant [s]
