@@ -188,7 +188,7 @@ std::vector<SteppingLimits> stepping_limits(
 
   std::vector<SteppingLimits> limits;
   for (const auto& [timing, direction] : conditions) {
-    limits.push_back({timing, direction, {}, {}, {}, noise_seeds});
+    limits.push_back({timing, direction, {}, {}, {}, {}, {}, noise_seeds});
   }
   std::vector<double> noisy;
   for (std::size_t i = 0; i < searches.size(); ++i) {
@@ -200,7 +200,11 @@ std::vector<SteppingLimits> stepping_limits(
       noisy.clear();
     } else {
       noisy.push_back(found[i].fall);
-      if (search.seed == noise_seeds) of(limit.noise_median, search.strategy) = median(noisy);
+      if (search.seed < noise_seeds) continue;
+      const auto [least, greatest] = std::minmax_element(noisy.begin(), noisy.end());
+      of(limit.noise_least, search.strategy) = *least;
+      of(limit.noise_greatest, search.strategy) = *greatest;
+      of(limit.noise_median, search.strategy) = median(noisy);
     }
   }
   return limits;

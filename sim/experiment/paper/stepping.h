@@ -72,6 +72,8 @@ struct SteppingLimits {
   StrategyForces fall;     ///< first fall, without noise
   StrategyForces ceiling;
   StrategyForces noise_median;  ///< first fall under the paper's noise, median of the seeds
+  StrategyForces noise_least;   ///< and the least and the greatest of them
+  StrategyForces noise_greatest;
   int noise_seeds = 0;
 };
 

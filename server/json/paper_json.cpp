@@ -1,0 +1,142 @@
+#include "server/json/paper_json.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "sim/experiment/paper/published.h"
+
+namespace stagger::server {
+namespace {
+
+namespace published = sim::published;
+
+/// Whole degrees stay whole.
+double degrees(double radians) {
+  constexpr double digits = 1e9;
+  return std::round(radians * 180.0 / std::numbers::pi * digits) / digits;
+}
+
+Json plan_json(const sim::PlanResult& plan) {
+  Json nodes = Json::array();
+  for (const sim::PlanNode& node : plan.nodes) {
+    nodes.push_back({{"t", node.time},
+                     {"com_m", node.com},
+                     {"dcm_m", node.dcm},
+                     {"independent_com_m", node.independent_com}});
+  }
+  return {
+      {"max_velocity_jump", plan.max_velocity_jump}, {"max_node_error", plan.max_node_error},
+      {"max_ode_residual", plan.max_ode_residual},   {"start_zmp_offset_m", plan.start_zmp_offset},
+      {"start_velocity", plan.start_velocity},       {"nodes", std::move(nodes)}};
+}
+
+Json tracking_json(const sim::TrackingResult& tracking) {
+  return {{"seeds", tracking.seeds},
+          {"noise_std_m", sim::paper_noise},
+          {"rms_com_m", tracking.rms_com},
+          {"rms_dcm_m", tracking.rms_dcm},
+          {"zmp_outside_fraction", tracking.outside},
+          {"rms_com_y_m", tracking.rms_com_y},
+          {"rms_dcm_y_m", tracking.rms_dcm_y},
+          {"zmp_outside_fraction_y", tracking.outside_y}};
+}
+
+Json standing_json(const sim::StandingResult& result) {
+  return {{"recovered", result.recovered}, {"bound", result.bound}, {"beyond", result.beyond}};
+}
+
+Json standing_json(const sim::StandingFigures& figures) {
+  Json noise = standing_json(figures.ankle_noise);
+  noise["beyond"] = figures.noise_beyond;
+  noise["seeds"] = figures.noise_seeds;
+  noise["noise_std_m"] = sim::paper_noise;
+  Json hips = Json::array();
+  for (const sim::StandingResult& result : figures.hips) {
+    Json hip{{"torque_nm", result.hip.torque},
+             {"inertia", result.hip.inertia},
+             {"angle_rad", result.hip.angle}};
+    hip.update(standing_json(result));
+    hip["largest_angle_rad"] = result.largest_angle;
+    hips.push_back(std::move(hip));
+  }
+  return {{"simulations", figures.ankle.states.size()},
+          {"published", {{"simulations", published::standing_simulations}}},
+          {"ankle", standing_json(figures.ankle)},
+          {"ankle_noise", std::move(noise)},
+          {"hip", std::move(hips)}};
+}
+
+Json forces_json(const sim::StrategyForces& forces) {
+  return {{"ankle_n", forces.ankle}, {"location_n", forces.location}, {"time_n", forces.time}};
+}
+
+/// 100 a / b; null where there is nothing to compare with.
+Json percent(double a, double b) { return b > 0.0 ? Json(100.0 * a / b) : Json(nullptr); }
+
+/// By how much a is more than b.
+Json gain(double a, double b) { return b > 0.0 ? Json(100.0 * (a / b - 1.0)) : Json(nullptr); }
+
+Json limits_json(const sim::SteppingLimits& limits) {
+  const sim::StrategyForces& fall = limits.fall;
+  Json json{{"t_ss", limits.timing.t_ss},
+            {"t_ds", limits.timing.t_ds},
+            {"t_left", limits.timing.t_left},
+            {"direction_deg", degrees(limits.direction)}};
+  json.update(forces_json(fall));
+  json["ceiling"] = forces_json(limits.ceiling);
+  json["percent"] = {{"ankle", percent(fall.ankle, limits.ceiling.ankle)},
+                     {"location", percent(fall.location, limits.ceiling.location)},
+                     {"time", percent(fall.time, limits.ceiling.time)}};
+  json["gain_percent"] = {{"location", gain(fall.location, fall.ankle)},
+                          {"time", gain(fall.time, fall.location)},
+                          {"total", gain(fall.time, fall.ankle)}};
+  if (limits.noise_seeds > 0) {
+    json["noise_median"] = forces_json(limits.noise_median);
+    json["noise_least"] = forces_json(limits.noise_least);
+    json["noise_greatest"] = forces_json(limits.noise_greatest);
+    json["noise_seeds"] = limits.noise_seeds;
+  }
+  return json;
+}
+
+Json limits_json(const std::vector<sim::SteppingLimits>& all) {
+  Json list = Json::array();
+  for (const sim::SteppingLimits& limits : all) list.push_back(limits_json(limits));
+  return list;
+}
+
+Json published_json() {
+  return {{"ankle_n", published::ankle_fall},
+          {"location_n", published::location_survived},
+          {"time_n", published::time_fall},
+          {"time_survived_n", published::time_survived},
+          {"land_350_m", published::landing_at_350},
+          {"land_400_m", published::landing_at_400},
+          {"dt_412_s", published::time_change_at_412},
+          {"dt_460_s", published::time_change_at_460},
+          {"gain_percent",
+           {{"location", published::location_gain},
+            {"time", published::time_gain},
+            {"total", published::total_gain}}}};
+}
+
+Json stepping_json(const sim::SteppingFigures& figures) {
+  Json json{{"stagger", limits_json(figures.limits)}};
+  if (!figures.directions.empty()) json["directions"] = limits_json(figures.directions);
+  json["published"] = published_json();
+  return json;
+}
+
+}  // namespace
+
+Json paper_json(const sim::PaperResults& results) {
+  Json json = Json::object();
+  if (results.plan) json["plan"] = plan_json(*results.plan);
+  if (results.tracking) json["lqg"] = tracking_json(*results.tracking);
+  if (results.standing) json["scenario1"] = standing_json(*results.standing);
+  if (results.stepping) json["scenario2"] = stepping_json(*results.stepping);
+  json["version"] = STAGGER_VERSION;
+  return json;
+}
+
+}  // namespace stagger::server
