@@ -107,8 +107,9 @@ Json limits_json(const std::vector<sim::SteppingLimits>& all) {
 
 Json published_json() {
   return {{"ankle_n", published::ankle_fall},
-          {"location_n", published::location_survived},
+          {"location_n", published::location_fall},
           {"time_n", published::time_fall},
+          {"location_survived_n", published::location_survived},
           {"time_survived_n", published::time_survived},
           {"land_350_m", published::landing_at_350},
           {"land_400_m", published::landing_at_400},

@@ -39,22 +39,25 @@ h2 {
 p { margin: 10px 0; max-width: 76ch; }
 a { color: var(--measured); }
 nav { margin-top: 18px; }
-nav a { margin-right: 20px; text-decoration: none; }
+nav a { display: inline-block; margin-right: 20px; text-decoration: none; }
 nav a:hover, nav a:focus { text-decoration: underline; }
 .subtitle { margin: 8px 0 0; color: var(--muted); font-size: 16px; }
-dl { display: grid; grid-template-columns: max-content 1fr; gap: 3px 20px; margin: 22px 0 0; }
+dl { display: grid; grid-template-columns: max-content 1fr; gap: 3px 20px; margin: 18px 0 0; }
 dt { color: var(--muted); }
 dd { margin: 0; }
 .scroll { overflow-x: auto; margin: 26px 0 0; }
 table { width: 100%; border-collapse: collapse; font-size: 14px; line-height: 1.4; }
+table.compact { width: auto; }
+.compact tbody th { min-width: 0; }
+.compact th:nth-child(n + 2), .compact td:nth-child(n + 2) { padding-left: 44px; }
 caption { padding-bottom: 8px; color: var(--muted); text-align: left; font-size: 14px; }
-th, td { padding: 3px 0 3px 20px; text-align: left; vertical-align: baseline; }
+th, td { padding: 2px 0 2px 20px; text-align: left; vertical-align: baseline; }
 th:first-child, td:first-child { padding-left: 0; }
 thead th { padding-bottom: 6px; border-bottom: 1px solid var(--text); font-weight: 600; }
-tbody th { font-weight: 400; }
+tbody th { min-width: 11em; font-weight: 400; }
 tbody tr + tr th, tbody tr + tr td { border-top: 1px solid var(--grid); }
 tbody th.group {
-  padding-top: 14px; border-top: 0; border-bottom: 1px solid var(--rule); font-weight: 600;
+  padding-top: 11px; border-top: 0; border-bottom: 1px solid var(--rule); font-weight: 600;
 }
 tbody tr.first th, tbody tr.first td { border-top: 0; }
 .number { text-align: right; white-space: nowrap; }
@@ -97,10 +100,12 @@ footer { margin-top: 64px; padding-top: 16px; border-top: 1px solid var(--rule);
     -webkit-print-color-adjust: exact; }
   nav { display: none; }
   .scroll { overflow: visible; }
-  table { font-size: 8.5pt; }
+  table { font-size: 8pt; }
+  th, td { padding: 1px 0 1px 10px; }
+  tbody { break-inside: avoid; }
   figcaption, caption { font-size: 8.5pt; }
   h2 { margin-top: 28pt; break-after: avoid; }
-  figure, tr, dl { break-inside: avoid; }
+  figure, tr, dl, .compact { break-inside: avoid; }
   th.group { break-after: avoid; }
   thead { display: table-header-group; }
   .columns-2 { grid-template-columns: repeat(2, minmax(0, 1fr)); }
@@ -120,8 +125,8 @@ class Writer {
   void operator()(const Table& table) {
     // A table wider than the window scrolls by itself, reachable by the keyboard.
     out += "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"" +
-           escaped(table.caption) + "\">\n<table>\n" + element("caption", table.caption) +
-           "\n<thead>\n<tr>";
+           escaped(table.caption) + "\">\n<table" + (table.compact ? " class=\"compact\"" : "") +
+           ">\n" + element("caption", table.caption) + "\n<thead>\n<tr>";
     for (const Table::Column& column : table.columns) {
       out += element("th", column.title,
                      column.number ? " scope=\"col\" class=\"number\"" : " scope=\"col\"");
@@ -145,7 +150,8 @@ class Writer {
       for (std::size_t i = 0; i < table.columns.size(); ++i) {
         const std::string text = i < row.cells.size() ? row.cells[i] : "";
         const std::string number = table.columns[i].number ? " class=\"number\"" : "";
-        out += i == 0 ? element("th", text, " scope=\"row\"") : element("td", text, number);
+        out +=
+            i == 0 ? element("th", text, " scope=\"row\"" + number) : element("td", text, number);
       }
       out += "</tr>\n";
     }

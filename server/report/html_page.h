@@ -25,6 +25,7 @@ struct Table {
   std::string caption;
   std::vector<Column> columns;
   std::vector<Row> rows;
+  bool compact = false;  ///< as wide as its text, instead of the page
 };
 
 /// Pictures side by side with one caption under them.

@@ -102,7 +102,7 @@ Plot swing_plot(const sim::PlanResult& plan) {
   plot.height = 430.0;
   plot.x.label = "x (m)";
   plot.y.label = "z (mm)";
-  plot.y.range = Range{0.0, 30.0};
+  plot.y.range = Range{-1.0, 30.0};
   for (std::size_t i = 0; i < plan.swings.size(); ++i) {
     const bool right = plan.steps[i + 1].side == sim::Side::right;
     LineLayer arc{
@@ -251,15 +251,18 @@ Plot standing_map(const sim::StandingResult& result, double width, std::string i
   for (const double c : {-0.2, -0.1, 0.0, 0.1, 0.2}) plot.x.marks.push_back({c, fixed(c, 1)});
   for (const double v : {-1.0, -0.5, 0.0, 0.5, 1.0}) plot.y.marks.push_back({v, fixed(v, 1)});
   BoxLayer recovered{"at rest in 2 s", {Ink::measured}, {}, false, 0.5};
-  BoxLayer missed{"within the bound, lost", {Ink::planned}, {}, false, 0.5};
+  BoxLayer missed{"within the bound, lost", {Ink::soft}, {}, false, 0.5};
+  BoxLayer beyond{"at rest, beyond the bound", {Ink::limit}, {}, false, 0.5};
   BoxLayer lost{"lost", {Ink::ground}, {}, false, 0.5};
   for (const sim::StandingState& s : result.states) {
-    BoxLayer& cells = s.recovered ? recovered : s.capturable ? missed : lost;
+    BoxLayer& cells =
+        s.capturable ? (s.recovered ? recovered : missed) : (s.recovered ? beyond : lost);
     cells.boxes.push_back(
         {{s.position - 0.01, s.velocity - 0.05}, {s.position + 0.01, s.velocity + 0.05}});
   }
   plot.layers.emplace_back(std::move(recovered));
   if (!missed.boxes.empty()) plot.layers.emplace_back(std::move(missed));
+  if (!beyond.boxes.empty()) plot.layers.emplace_back(std::move(beyond));
   plot.layers.emplace_back(std::move(lost));
   plot.layers.emplace_back(dcm_line("bound", bound_stroke, bound, omega));
   plot.layers.emplace_back(dcm_line("bound", bound_stroke, -bound, omega));
@@ -292,15 +295,17 @@ Plot standing_example_plot(const sim::StandingExample& example, std::string id, 
 }
 
 Plot stepping_bars(const std::vector<sim::SteppingLimits>& limits) {
-  constexpr double bar = 0.27;
+  constexpr double bar = 0.21;      // of the distance between two timings
+  constexpr double pitch = 0.29;    // from bar to bar; the spread under noise stands between them
+  constexpr double beside = 0.135;  // from a bar's middle to its spread
   Plot plot;
   plot.id = "scenario2-limits";
   plot.title = "First fall, and the ceiling of any controller";
   plot.description = "Three bars for each timing: ankle, ankle and place, ankle, place and time.";
   plot.width = picture_width(1);
   plot.height = 420.0;
-  plot.x.label = "T_ss / T_ds / single support left at the push (s)";
-  plot.x.range = Range{-0.55, static_cast<double>(limits.size()) - 0.45};
+  plot.x.label = "single support / double support / single support left at the push (s)";
+  plot.x.range = Range{-0.52, static_cast<double>(limits.size()) - 0.44};
   plot.x.grid = false;
   plot.y.label = "force for 10 ms (N)";
   std::array<BoxLayer, 3> bars;
@@ -319,7 +324,7 @@ Plot stepping_bars(const std::vector<sim::SteppingLimits>& limits) {
     if (std::abs(l.direction) > 1e-9) label += ", " + direction_text(l.direction);
     plot.x.marks.push_back({static_cast<double>(i), std::move(label)});
     for (std::size_t s = 0; s < bars.size(); ++s) {
-      const double middle = static_cast<double>(i) + (static_cast<double>(s) - 1.0) * (bar + 0.015);
+      const double middle = static_cast<double>(i) + (static_cast<double>(s) - 1.0) * pitch;
       const double low = middle - 0.5 * bar;
       const double high = middle + 0.5 * bar;
       const double fall = by_strategy(l.fall)[s];
@@ -331,10 +336,11 @@ Plot stepping_bars(const std::vector<sim::SteppingLimits>& limits) {
           NoteLayer{{middle, std::max(fall, most)}, fixed(fall, 0), Anchor::middle, 6.0});
       top = std::max({top, fall, most});
       if (l.noise_seeds == 0) continue;
-      const double x = high - 0.25 * bar;
+      const double x = middle + beside;
       spread.points = {{x, by_strategy(l.noise_least)[s]}, {x, by_strategy(l.noise_greatest)[s]}};
       marks.emplace_back(spread);
       median.points.push_back({x, by_strategy(l.noise_median)[s]});
+      top = std::max(top, by_strategy(l.noise_greatest)[s]);
     }
   }
   plot.y.range = nice_range({0.0, 1.05 * top}, 8);
@@ -354,14 +360,18 @@ Plot direction_plot(const std::vector<sim::SteppingLimits>& around, double width
   plot.description =
       "First fall in eight directions for each strategy, with the ceiling, seen from above.";
   plot.width = width;
-  plot.height = 1.15 * width;
-  plot.x.label = "to the right (N)";
-  plot.y.label = "forward (N)";
+  plot.height = 0.92 * width;
+  plot.x.label = "forward (N)";
+  plot.y.label = "to the left (N)";
   plot.equal_aspect = true;
-  const auto force = [](double newtons, double direction) {
-    return DataPoint{-newtons * std::sin(direction), newtons * std::cos(direction)};
-  };
+  // The legend keeps the order of the other figures; what is drawn puts small over large.
+  for (std::size_t s = 0; s < strategy_names.size(); ++s) {
+    plot.layers.emplace_back(LineLayer{strategy_names[s], {strategy_inks[s], 1.6}, {}});
+  }
   plot.layers.emplace_back(LineLayer{"ceiling", {Ink::limit, 1.1}, {}});
+  const auto force = [](double newtons, double direction) {
+    return DataPoint{newtons * std::cos(direction), newtons * std::sin(direction)};
+  };
   for (std::size_t s = strategy_names.size(); s-- > 0;) {
     LineLayer ceiling{"ceiling", {Ink::limit, 1.1}, {}, true};
     LineLayer fall{strategy_names[s], {strategy_inks[s], 1.6}, {}, true};

@@ -35,6 +35,7 @@ Table summary_table(const sim::PaperResults& results) {
 Table node_table(const sim::PlanResult& plan) {
   Table table;
   table.caption = "References at the ends of the phases, one axis; both are equal";
+  table.compact = true;
   table.columns = {
       {"Time (s)", true}, {"CoM (m)", true}, {"CoM, independent (m)", true}, {"DCM (m)", true}};
   for (const sim::PlanNode& node : plan.nodes) {
@@ -47,8 +48,9 @@ Table node_table(const sim::PlanResult& plan) {
 
 Section plan_section(const sim::PlanResult& plan) {
   Figure figure{"figure-plan",
-                "Planned references of six diagonal steps: step length 0.5 m in x and in y, T_ss "
-                "0.8 s, T_ds 0.2 s, swing height 25 mm. The ZMP stands under the foot in single "
+                "Planned references of six diagonal steps: step length 0.5 m in x and in y, single "
+                "support 0.8 s, double support 0.2 s, swing height 25 mm. The ZMP stands under the "
+                "foot in single "
                 "support and moves to the next one in double support. Red dots come from a linear "
                 "system for the boundary values, which shares nothing with the planner.",
                 2, drawn(plan_plots(plan))};
@@ -56,13 +58,14 @@ Section plan_section(const sim::PlanResult& plan) {
 }
 
 Section tracking_section(const sim::TrackingResult& tracking) {
-  Figure figure{"figure-lqg",
-                "Six steps of 0.5 m forward, T_ss 1 s, T_ds 0, with measurement noise of 25 mm "
-                "standard deviation on CoM and DCM; the first of " +
-                    std::to_string(tracking.seeds) +
-                    " seeds. The band is the extent of the feet on the ground: no ZMP can lie "
-                    "outside.",
-                2, drawn(tracking_plots(tracking))};
+  Figure figure{
+      "figure-lqg",
+      "Six steps of 0.5 m forward, single support 1 s, no double support, with measurement "
+      "noise of 25 mm standard deviation on CoM and DCM; the first of " +
+          std::to_string(tracking.seeds) +
+          " seeds. The band is the extent of the feet on the ground: no ZMP can lie "
+          "outside.",
+      2, drawn(tracking_plots(tracking))};
   return {"lqg", "LQG controller under noise", {std::move(figure)}};
 }
 
@@ -115,16 +118,16 @@ Section standing_section(const sim::StandingFigures& figures) {
 Section stepping_section(const sim::SteppingFigures& figures) {
   Section section{"scenario2", "Scenario 2: pushed while stepping in place", {}};
   const int seeds = figures.limits.empty() ? 0 : figures.limits.front().noise_seeds;
-  section.blocks.emplace_back(
-      Figure{"figure-limits",
-             "Push of 10 ms on the CoM during single support of the left foot. Bars: least force "
-             "that leads to a fall, without noise. Black: the same under noise of 25 mm standard "
-             "deviation, " +
-                 std::to_string(seeds) +
-                 " seeds. Red: force that no controller survives with the same foot, reach and "
-                 "limits of the step time. What is left of single support decides the most.",
-             1,
-             {to_svg(stepping_bars(figures.limits))}});
+  section.blocks.emplace_back(Figure{
+      "figure-limits",
+      "Push of 10 ms on the CoM during single support of the left foot. Bars: least force "
+      "that leads to a fall, without noise. Thin lines: the same under noise of 25 mm standard "
+      "deviation, " +
+          std::to_string(seeds) +
+          " seeds. Red: force that no controller survives with the same foot, reach and "
+          "limits of the step time. What is left of single support decides the most.",
+      1,
+      {to_svg(stepping_bars(figures.limits))}});
   if (figures.directions.empty()) return section;
   std::vector<Plot> plots;
   for (const sim::SteppingLimits& forward : figures.limits) {
@@ -138,13 +141,13 @@ Section stepping_section(const sim::SteppingFigures& figures) {
     plots.push_back(direction_plot(around, picture_width(3),
                                    "scenario2-directions-" + std::to_string(plots.size() + 1)));
   }
-  section.blocks.emplace_back(
-      Figure{"figure-directions",
-             "First fall in eight directions, seen from above, forward upwards; the left foot "
-             "stands. Titles: T_ss / T_ds / single support left. Only the dots are measured, the "
-             "lines between them guide the eye. Legs do not cross: pushes to the left find little "
-             "room for a step.",
-             3, drawn(plots)});
+  section.blocks.emplace_back(Figure{
+      "figure-directions",
+      "First fall in eight directions, seen from above; the left foot stands. Titles: single "
+      "support / double support / single support left at the push. Only the dots are "
+      "measured, the lines between them guide the eye. Legs do not cross: pushes to the "
+      "left find little room for a step.",
+      3, drawn(plots)});
   return section;
 }
 
@@ -163,6 +166,13 @@ std::string paper_report(const sim::PaperResults& results, const std::string& co
       {"Program", "stagger " STAGGER_VERSION},
       {"Command", command}};
   page.summary.emplace_back(summary_table(results));
+  if (results.stepping) {
+    page.summary.emplace_back(Paragraph{
+        "The paper gives no gait timing with its forces: its numbers stand beside every timing, as "
+        "the greatest force survived and the one that falls. Forces under noise are medians; noise "
+        "moves the robot before the push already, so that they can lie above the ceiling, which is "
+        "that of the undisturbed gait."});
+  }
   if (results.plan) page.sections.push_back(plan_section(*results.plan));
   if (results.tracking) page.sections.push_back(tracking_section(*results.tracking));
   if (results.standing) page.sections.push_back(standing_section(*results.standing));

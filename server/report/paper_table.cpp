@@ -83,8 +83,9 @@ PaperGroup stepping_group(const sim::SteppingLimits& limits) {
   const auto seconds = [](double s) { return coordinate(s, 3) + " s"; };
   PaperGroup group;
   group.title = "Scenario 2: first fall, push of 10 ms " + direction_text(limits.direction) +
-                "; T_ss " + seconds(limits.timing.t_ss) + ", T_ds " + seconds(limits.timing.t_ds) +
-                ", " + seconds(limits.timing.t_left) + " left";
+                "; single support " + seconds(limits.timing.t_ss) + ", double " +
+                seconds(limits.timing.t_ds) + ", " + seconds(limits.timing.t_left) +
+                " left at the push";
   const bool forward = std::abs(limits.direction) < 1e-9;
   const auto row = [&](const char* name, double sim::StrategyForces::*member, std::string printed) {
     PaperRow r = row_of(name, "N");
@@ -95,11 +96,12 @@ PaperGroup stepping_group(const sim::SteppingLimits& limits) {
     r.percent = share(limits.fall.*member, limits.ceiling.*member);
     return r;
   };
-  group.rows = {row("Ankle", &sim::StrategyForces::ankle, newtons(published::ankle_fall)),
-                row("Ankle and place of the step", &sim::StrategyForces::location,
-                    newtons(published::location_survived)),
-                row("Ankle, place and time of the step", &sim::StrategyForces::time,
-                    newtons(published::time_survived) + "\u2013" + newtons(published::time_fall))};
+  group.rows = {
+      row("Ankle", &sim::StrategyForces::ankle, newtons(published::ankle_fall)),
+      row("Ankle and place of the step", &sim::StrategyForces::location,
+          newtons(published::location_survived) + "\u2013" + newtons(published::location_fall)),
+      row("Ankle, place and time of the step", &sim::StrategyForces::time,
+          newtons(published::time_survived) + "\u2013" + newtons(published::time_fall))};
   return group;
 }
 

@@ -99,9 +99,16 @@ struct AxisLayout {
   std::vector<Axis::Mark> marks;
 };
 
+/// With a little room, so that no line runs along the frame.
+Range padded(const Range& data) {
+  constexpr double share = 0.04;
+  const Range r = usable(data);
+  return {r.low - share * r.span(), r.high + share * r.span()};
+}
+
 AxisLayout lay_out_axis(const Axis& axis, const Range& data, int most) {
   AxisLayout layout;
-  layout.range = axis.range ? usable(*axis.range) : nice_range(data, most);
+  layout.range = axis.range ? usable(*axis.range) : padded(data);
   layout.marks = axis.marks;
   if (layout.marks.empty()) {
     const Ticks ticks = nice_ticks(layout.range, most);

@@ -9,7 +9,7 @@ StandingExample example(double position, double velocity) {
   return {position, velocity, standing_trace(position, velocity)};
 }
 
-StandingFigures run_standing_figures(int noise_seeds) {
+StandingFigures run_scenario1(int noise_seeds) {
   StandingFigures figures;
   figures.ankle = run_standing();
   figures.noise_seeds = noise_seeds;
@@ -29,7 +29,7 @@ StandingFigures run_standing_figures(int noise_seeds) {
   return figures;
 }
 
-SteppingFigures run_stepping_figures(const PaperRequest& request) {
+SteppingFigures run_scenario2(const PaperRequest& request) {
   SteppingFigures figures;
   if (request.timing) {
     figures.limits = stepping_limits({{*request.timing, request.direction}}, request.seeds);
@@ -66,8 +66,8 @@ PaperResults run_paper(const PaperRequest& request) {
   PaperResults results;
   if (request.plan) results.plan = run_plan();
   if (request.tracking) results.tracking = run_tracking(request.seeds);
-  if (request.standing) results.standing = run_standing_figures(request.standing_seeds);
-  if (request.stepping) results.stepping = run_stepping_figures(request);
+  if (request.standing) results.standing = run_scenario1(request.standing_seeds);
+  if (request.stepping) results.stepping = run_scenario2(request);
   return results;
 }
 

@@ -9,9 +9,10 @@ inline constexpr int standing_simulations = 441;
 /// Scenario 2, push of 10 ms forward. What falls first under the ankle alone; the caption of the
 /// paper's figure has 326 [N].
 inline constexpr double ankle_fall = 325.0;
-/// Greatest force survived with the place of the step adjusted [N].
+/// With the place of the step adjusted: greatest force survived, and the one drawn falling [N].
 inline constexpr double location_survived = 411.0;
-/// With place and time adjusted: greatest force shown to be survived, and the one that falls [N].
+inline constexpr double location_fall = 412.0;
+/// With place and time adjusted, likewise [N].
 inline constexpr double time_survived = 530.0;
 inline constexpr double time_fall = 532.0;
 /// Landing of the step at 350 and 400 N [m].
