@@ -25,6 +25,7 @@ WalkingEngine::WalkingEngine(const Parameters& parameters, const Measurement& st
       sole_{parameters.foot_half_length - parameters.sole_margin,
             parameters.foot_half_width - parameters.sole_margin},
       reach_(reach),
+      time_reach_(reach.scaled_length(parameters.time_reach)),
       machine_(parameters),
       lqg_(parameters),
       hip_(parameters.hip, parameters.mass * parameters.gravity, omega_, parameters.tick),
@@ -252,7 +253,7 @@ void WalkingEngine::adjust() {
           adjust_step(now, nominal - passed, omega_, reach_, parameters_);
       if (unhurried.adjusted && parameters_.strategies.step) {
         wanted = passed + adjust_time(now, nominal - passed, earliest - passed, latest - passed,
-                                      omega_, reach_);  // (12')
+                                      omega_, time_reach_);  // (12')
       }
       // (13'), about the nominal time: nothing accumulates.
       const double share = -std::expm1(-parameters_.tick / parameters_.time_constant);

@@ -75,6 +75,7 @@ class WalkingEngine {
   double omega_;
   Sole sole_;
   ReachRegion reach_;
+  ReachRegion time_reach_;  ///< what the step time is adjusted for
   StateMachine machine_;
   Lqg lqg_;
   HipStrategy hip_;
