@@ -5,6 +5,7 @@
 
 #include "engine/reference.h"
 #include "sim/experiment/capturability.h"
+#include "sim/experiment/median.h"
 #include "sim/experiment/parallel.h"
 
 namespace stagger::sim {
@@ -20,12 +21,6 @@ ConvexSet corners(const engine::ConvexPolygon& polygon) {
   ConvexSet set;
   for (std::size_t i = 0; i < polygon.size(); ++i) set.push_back(polygon.vertex(i));
   return set;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
 double& of(StrategyForces& forces, SteppingStrategy strategy) {
