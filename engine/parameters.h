@@ -58,6 +58,8 @@ struct Parameters {
   double measurement_noise = 6.25e-4;  ///< variance of the measured c and dcm [m^2]
   double push_gate = 5.0;  ///< innovations beyond this many standard deviations are a push
 
+  /// Share of the sole by which the ankle is reckoned to move the ZMP before a step is adjusted.
+  double ankle_share = 0.3;
   double step_gain = 1.0;     ///< k_sa of eq. (11)
   double step_margin = 0.10;  ///< compliance margin on |Delta_f| [m]
   double step_freeze = 0.06;  ///< place and time stay as they are in the last part of the swing [s]

@@ -9,7 +9,18 @@ CatchingLine catching_line(const StepSituation& s) {
   // e^{-w Tds} b, told by what the plan wants at touchdown.
   const Vec2 offset =
       s.nominal_dcm - s.stance.position - s.transfer * (s.planned.position - s.stance.position);
-  return {s.stance.position - offset / s.transfer, (s.dcm - s.stance.position) / s.transfer};
+  const Vec2 zmp = s.stance.position + s.ankle;
+  return {s.stance.position + (s.ankle - offset) / s.transfer, (s.dcm - zmp) / s.transfer};
+}
+
+Vec2 ankle_help(const StepSituation& situation, const Vec2& error, double time_left, double omega,
+                const Sole& sole, double share) {
+  const double gain = std::expm1(omega * time_left);
+  if (gain <= 0.0) return situation.ankle;
+  const double yaw = situation.stance.yaw;
+  const Vec2 most = share * Vec2(sole.half_length, sole.half_width);
+  const Vec2 wanted = situation.ankle + error * (situation.transfer / gain);
+  return rotated(rotated(wanted, -yaw).cwiseMax(-most).cwiseMin(most), yaw);
 }
 
 StepAdjustment adjust_step(const StepSituation& situation, double time_left, double omega,
