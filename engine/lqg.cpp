@@ -1,6 +1,7 @@
 #include "engine/lqg.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 
 #include "engine/riccati.h"
 
@@ -8,6 +9,14 @@ namespace stagger::engine {
 namespace {
 
 Eigen::RowVector3d design_feedback(const Parameters& p, const DiscreteLipm& lipm) {
+  const Eigen::Matrix<double, 1, 1> r(p.lqr_zmp_weight * p.tick);
+  const Eigen::Matrix3d q = (p.lqr_state_weight * p.tick).asDiagonal();
+  if (p.lqr_state_weight(2) == 0.0) {
+    // An integrator that costs nothing would stay at z = 1, and the design would have no solution.
+    Eigen::RowVector3d gain = Eigen::RowVector3d::Zero();
+    gain.head<2>() = lqr_gain(lipm.a, lipm.b, q.topLeftCorner<2, 2>(), r);
+    return gain;
+  }
   // [CoM error, DCM error, integral of CoM error]; one integral only: both are not stabilisable.
   Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
   a.topLeftCorner<2, 2>() = lipm.a;
@@ -15,13 +24,13 @@ Eigen::RowVector3d design_feedback(const Parameters& p, const DiscreteLipm& lipm
   a(2, 2) = 1.0;
   Eigen::Vector3d b;
   b << lipm.b, 0.0;
-  const Eigen::Matrix3d q = (p.lqr_state_weight * p.tick).asDiagonal();
-  const Eigen::Matrix<double, 1, 1> r(p.lqr_zmp_weight * p.tick);
   return lqr_gain(a, b, q, r);
 }
 
 /// Weight of the newest innovation in their average: about nine ticks count.
 constexpr double innovation_smoothing = 0.2;
+/// A ZMP that lacks this much to meet a goal gives up tracking altogether [m].
+constexpr double goal_blend = 0.01;
 /// What a push may have done to the DCM: variance of 10 cm [m^2].
 constexpr double push_variance = 0.01;
 
@@ -73,7 +82,7 @@ void Lqg::estimate(const Vec2& com, const Vec2& dcm) {
 }
 
 Vec2 Lqg::control(const LqgReference& reference, const ConvexPolygon& polygon, const HipAid& hip,
-                  bool act, bool integrate) {
+                  bool act, bool integrate, const DcmGoal& goal) {
   const Vec2 com_error = com() - reference.com;
   const Vec2 dcm_error = dcm() - reference.dcm;
   Vec2 wanted = reference.zmp;
@@ -81,7 +90,16 @@ Vec2 Lqg::control(const LqgReference& reference, const ConvexPolygon& polygon, c
     wanted -= feedback_(0) * com_error + feedback_(1) * dcm_error + feedback_(2) * integral_;
     wanted += hip.swing - hip.shift;  // a metre in the direction of the swing: the edge of the foot
   }
-  const Vec2 zmp = polygon.clamp(wanted);
+  Vec2 zmp = polygon.clamp(wanted);
+  if (act && goal.region != nullptr) {
+    // What the command comes to when the plan's ZMP moves on under it, and what it lacks then.
+    const Vec2 held = polygon.clamp(zmp + goal.held - reference.zmp);
+    const Vec2 better = zmp_towards(goal, held, dcm(), polygon);
+    // A ZMP that moves on with the plan may run into an edge later: all that can be done is done at
+    // once. Gradually, lest it chatter where the goal is only just missed.
+    const double urgency = std::min((better - held).norm() / goal_blend, 1.0);
+    zmp += urgency * (better - zmp);
+  }
   const bool clamped = (zmp - wanted).squaredNorm() > 0.0;
   if (act && integrate && !clamped) integral_ += tick_ * com_error;
   state_ = (lipm_.a * state_ + lipm_.b * (zmp + hip.shift).transpose()).eval();

@@ -1,6 +1,7 @@
 // The low-level controller: Kalman filter, integrator and state feedback on the LIPM, eqs. (5)-(8).
 #pragma once
 
+#include "engine/capture_region.h"
 #include "engine/convex_polygon.h"
 #include "engine/lipm.h"
 #include "engine/parameters.h"
@@ -35,9 +36,9 @@ class Lqg {
 
   /// ZMP command inside the polygon, and the prediction for the next tick. `shift` of the effective
   /// ZMP comes from the hips: the ankle need not do that part. `act` off leaves the ZMP at its
-  /// reference (the ankle strategy is switched off).
+  /// reference (the ankle strategy is switched off). A `goal` comes before the tracking.
   Vec2 control(const LqgReference& reference, const ConvexPolygon& polygon, const HipAid& hip,
-               bool act, bool integrate);
+               bool act, bool integrate, const DcmGoal& goal = {});
 
   Vec2 com() const { return state_.row(0); }
   Vec2 dcm() const { return state_.row(1); }

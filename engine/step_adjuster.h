@@ -5,14 +5,15 @@
 
 #include "engine/parameters.h"
 #include "engine/reach.h"
+#include "engine/support_polygon.h"
 
 namespace stagger::engine {
 
 /// The foothold that catches the DCM as a function of the time left until touchdown. World frame.
 ///
-/// With the ZMP at the stance foot, zeta_TD = f_i + (zeta - f_i) e^{w tau}; the plan wants
+/// With the ZMP at p = f_i + ankle, zeta_TD = p + (zeta - p) e^{w tau}; the plan wants
 /// zeta_TD = f_i + gamma (f - f_i) + e^{-w Tds} b for a foothold f. Equate them:
-///   f(tau) = base + ray e^{w tau},  ray = (zeta - f_i) / gamma.
+///   f(tau) = base + ray e^{w tau},  ray = (zeta - p) / gamma.
 struct CatchingLine {
   Vec2 base = Vec2::Zero();
   Vec2 ray = Vec2::Zero();
@@ -27,6 +28,7 @@ struct StepSituation {
   Vec2 dcm = Vec2::Zero();          ///< estimated DCM now
   Vec2 nominal_dcm = Vec2::Zero();  ///< DCM that the plan wants at touchdown for `planned`
   double transfer = 1.0;            ///< gamma of the double support that follows
+  Vec2 ankle = Vec2::Zero();        ///< ZMP from the stance foot until touchdown, reckoned with [m]
 };
 
 CatchingLine catching_line(const StepSituation& situation);
@@ -41,6 +43,11 @@ struct StepAdjustment {
 /// what the leg reaches. `time_left` until touchdown [s].
 StepAdjustment adjust_step(const StepSituation& situation, double time_left, double omega,
                            const ReachRegion& reach, const Parameters& parameters);
+
+/// ZMP from the stance foot [m] that until touchdown makes good a foothold that is `error` away
+/// from where it should be, as far as the ZMP gets inside `share` of the sole.
+Vec2 ankle_help(const StepSituation& situation, const Vec2& error, double time_left, double omega,
+                const Sole& sole, double share);
 
 /// (12'): time left until touchdown, in [earliest, latest], at which a reachable foothold catches
 /// the DCM: the nominal one if that does, else the nearest that does, else the one with the least

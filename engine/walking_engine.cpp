@@ -15,16 +15,18 @@ Footstep footstep(const FootPose& pose, Side side) {
 
 }  // namespace
 
-WalkingEngine::WalkingEngine(const Parameters& parameters, const Measurement& start)
+WalkingEngine::WalkingEngine(const Parameters& parameters, const Measurement& start, Layout)
     : WalkingEngine(parameters, start, ReachRegion(parameters)) {}
 
 WalkingEngine::WalkingEngine(const Parameters& parameters, const Measurement& start,
-                             const ReachRegion& reach)
+                             const ReachRegion& reach, Layout)
     : parameters_(parameters),
       omega_(natural_frequency(parameters)),
       sole_{parameters.foot_half_length - parameters.sole_margin,
             parameters.foot_half_width - parameters.sole_margin},
       reach_(reach),
+      time_reach_(reach.scaled_length(parameters.time_reach)),
+      capture_(parameters, reach),
       machine_(parameters),
       lqg_(parameters),
       hip_(parameters.hip, parameters.mass * parameters.gravity, omega_, parameters.tick),
@@ -115,8 +117,8 @@ const WalkingTargets& WalkingEngine::update(const Measurement& measurement) {
 
   const LqgReference reference{com_reference_, plan_.dcm(), plan_.zmp()};
   publish(reference);
-  targets_.zmp_command =
-      lqg_.control(reference, polygon_, hip_aid_, parameters_.strategies.ankle, !adjusting_);
+  targets_.zmp_command = lqg_.control(reference, polygon_, hip_aid_, parameters_.strategies.ankle,
+                                      !adjusting_, goal());
   com_reference_ = plan_.advance_com(com_reference_, parameters_.tick, omega_);
   machine_.pass(parameters_.tick);
   return targets_;
@@ -240,27 +242,12 @@ void WalkingEngine::adjust() {
   if (machine_.single_support_left() <= parameters_.step_freeze) {
     steps_[0] = swing_goal_;
   } else {
-    const StepSituation now = situation(planned_);
-    if (parameters_.strategies.time) {
-      const double passed = machine_.time();
-      const double earliest = std::max({nominal_t_ss_ - parameters_.time_limit,
-                                        parameters_.least_t_ss, passed + parameters_.step_freeze});
-      const double latest = std::max(nominal_t_ss_ + parameters_.time_limit, earliest);
-      const double nominal = std::clamp(nominal_t_ss_, earliest, latest);
-      double wanted = nominal;
-      const StepAdjustment unhurried =
-          adjust_step(now, nominal - passed, omega_, reach_, parameters_);
-      if (unhurried.adjusted && parameters_.strategies.step) {
-        wanted = passed + adjust_time(now, nominal - passed, earliest - passed, latest - passed,
-                                      omega_, reach_);  // (12')
-      }
-      // (13'), about the nominal time: nothing accumulates.
-      const double share = -std::expm1(-parameters_.tick / parameters_.time_constant);
-      machine_.set_t_ss(machine_.t_ss() + share * (wanted - machine_.t_ss()));
-    }
+    StepSituation now = situation(planned_);
+    if (parameters_.strategies.time) adjust_step_time(now);
     if (parameters_.strategies.step) {
-      const StepAdjustment adjustment =
-          adjust_step(now, machine_.single_support_left(), omega_, reach_, parameters_);
+      const double left = machine_.single_support_left();
+      lean_on_ankle(now, left);
+      const StepAdjustment adjustment = adjust_step(now, left, omega_, reach_, parameters_);
       steps_[0] = adjustment.step;
       adjusting_ = adjustment.adjusted;
     }
@@ -268,6 +255,50 @@ void WalkingEngine::adjust() {
   // The plan has to be of the step that is really taken: then the reference meets the DCM.
   plan_steps(steps_[0], 1);
   plan_reference();
+}
+
+void WalkingEngine::lean_on_ankle(StepSituation& now, double left) const {
+  if (!parameters_.strategies.ankle) return;
+  const auto foothold_error = [&](const Vec2& foothold) -> Vec2 {
+    return catching_line(now).foothold(std::exp(omega_ * left)) - foothold;
+  };
+  now.ankle = Vec2::Zero();
+  now.ankle = ankle_help(now, foothold_error(now.planned.position), left, omega_, sole_,
+                         parameters_.ankle_share);
+  // What no step reaches is left to the ankle, too, with all of the sole.
+  const Vec2 wanted = now.planned.position + foothold_error(now.planned.position);
+  const Vec2 beyond = wanted - reach_.clamp(now.stance, wanted);
+  if (beyond.squaredNorm() > 0.0) now.ankle = ankle_help(now, beyond, left, omega_, sole_, 1.0);
+}
+
+void WalkingEngine::adjust_step_time(StepSituation now) {
+  const double passed = machine_.time();
+  const double earliest = std::max({nominal_t_ss_ - parameters_.time_limit, parameters_.least_t_ss,
+                                    passed + parameters_.step_freeze});
+  const double latest = std::max(nominal_t_ss_ + parameters_.time_limit, earliest);
+  const double nominal = std::clamp(nominal_t_ss_, earliest, latest);
+  double wanted = nominal;
+  if (parameters_.strategies.step) {
+    lean_on_ankle(now, nominal - passed);
+    if (adjust_step(now, nominal - passed, omega_, reach_, parameters_).adjusted) {
+      wanted = passed + adjust_time(now, nominal - passed, earliest - passed, latest - passed,
+                                    omega_, time_reach_);  // (12')
+    }
+  }
+  // (13'), about the nominal time: nothing accumulates.
+  const double share = -std::expm1(-parameters_.tick / parameters_.time_constant);
+  machine_.set_t_ss(machine_.t_ss() + share * (wanted - machine_.t_ss()));
+}
+
+DcmGoal WalkingEngine::goal() const {
+  // Between two steps the ZMP can choose which error to leave to the next step: one that it can
+  // still make good, whatever the distance from the reference.
+  const bool between_steps = machine_.state() == WalkingState::double_support && step_count_ > 0;
+  if (!between_steps || !parameters_.strategies.step) return {};
+  const double gain = std::expm1(omega_ * machine_.double_support_left());
+  if (gain <= 0.0) return {};
+  const Vec2 held = plan_.dcm() - (plan_.dcm_at_end(0) - plan_.dcm()) / gain;
+  return {&capture_.polygon(landed_.side), landed_.position, landed_.yaw, 1.0 + gain, held};
 }
 
 void WalkingEngine::move_swing_foot() {

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "engine/capture_region.h"
 #include "engine/hip_strategy.h"
 #include "engine/lqg.h"
 #include "engine/measurement.h"
@@ -16,6 +17,13 @@
 #include "engine/walking_targets.h"
 
 namespace stagger::engine {
+
+/// Where the compiler may place a fixed-size matrix depends on the instruction set that it compiles
+/// for (-march), and with it the layout of the engine. As a parameter of the constructors this
+/// keeps a program from linking a library of another layout; it would run, on shifted fields.
+template <std::size_t Bytes>
+struct MatrixAlignment {};
+using Layout = MatrixAlignment<EIGEN_MAX_STATIC_ALIGN_BYTES>;
 
 /// The walking engine of Kasaei, Lau and Pereira (IROS 2019). Knows no clock: call update() once a
 /// control period. After construction it takes no memory, throws nothing and locks nothing.
@@ -33,9 +41,10 @@ class WalkingEngine {
 
   /// Stands on the feet of `start`. Throws std::invalid_argument when the parameters have no
   /// stabilising controller.
-  WalkingEngine(const Parameters& parameters, const Measurement& start);
+  WalkingEngine(const Parameters& parameters, const Measurement& start, Layout layout = {});
   /// The same with a region of footholds of one's own, e.g. from the leg's kinematics.
-  WalkingEngine(const Parameters& parameters, const Measurement& start, const ReachRegion& reach);
+  WalkingEngine(const Parameters& parameters, const Measurement& start, const ReachRegion& reach,
+                Layout layout = {});
 
   /// Starts walking or changes the velocity in mid-walk; the step under way lands as planned.
   void walk(const WalkCommand& command);
@@ -53,6 +62,7 @@ class WalkingEngine {
   const ConvexPolygon& support_polygon() const { return polygon_; }
   const StateMachine& state_machine() const { return machine_; }
   const ReachRegion& reach() const { return reach_; }
+  const CaptureRegion& capture_region() const { return capture_; }
   const Lqg& lqg() const { return lqg_; }
 
  private:
@@ -62,8 +72,12 @@ class WalkingEngine {
   void plan_steps(const Footstep& first_stance, std::size_t first);
   void plan_reference();
   void adjust();
+  void adjust_step_time(StepSituation now);
+  /// Fills in the ankle's part of the catch, `left` before touchdown [s].
+  void lean_on_ankle(StepSituation& now, double left) const;
   /// `next` is the foothold that plan_ has been made for.
   StepSituation situation(const Footstep& next) const;
+  DcmGoal goal() const;
   void move_swing_foot();
   void use_hip();
   void publish(const LqgReference& reference);
@@ -75,6 +89,8 @@ class WalkingEngine {
   double omega_;
   Sole sole_;
   ReachRegion reach_;
+  ReachRegion time_reach_;  ///< what the step time is adjusted for
+  CaptureRegion capture_;
   StateMachine machine_;
   Lqg lqg_;
   HipStrategy hip_;

@@ -111,18 +111,41 @@ TEST(StepTime, GrowsWhenTheFeetWouldComeTooClose) {
   EXPECT_LE(foothold.y(), s.stance.position.y() - Parameters().min_step_width + 1e-9);
 }
 
-TEST(StepTime, FindsTheLeastViolationByAnyOther) {
+TEST(StepTime, StaysWhenNoTimeIsNearer) {
+  // Only the width is out of reach, and that by as much at any time: the DCM is above the foot's
+  // mid-line, whither its way runs parallel to the edge.
+  StepSituation s = forward_gait(0.8, 0.2, 0.5, Vec2::Zero());
+  s.dcm.y() = s.stance.position.y();
+  EXPECT_DOUBLE_EQ(best_time(s, 0.5), 0.5);
+}
+
+TEST(StepTime, FindsTheLeastDistanceByAnyOther) {
   // Against a fine search over the whole interval.
-  for (const Vec2& error : {Vec2(0.3, -0.2), Vec2(-0.25, 0.1), Vec2(0.02, 0.2), Vec2(0.2, 0.1)}) {
+  for (const Vec2& error :
+       {Vec2(0.3, -0.2), Vec2(-0.25, 0.1), Vec2(0.02, 0.2), Vec2(0.2, 0.1), Vec2(0.05, 0.02)}) {
     const StepSituation s = forward_gait(0.8, 0.2, 0.5, error);
     const ReachRegion reach{Parameters()};
-    const auto violation = [&](double left) {
-      const Vec2 foothold = catching_line(s).foothold(std::exp(omega * left));
-      return std::max(0.0, -reach.polygon(Side::left).margin(foothold - s.stance.position));
+    const auto distance = [&](double left) {
+      const Vec2 step = catching_line(s).foothold(std::exp(omega * left)) - s.stance.position;
+      return (step - reach.polygon(Side::left).clamp(step)).norm();
     };
     double least = 1e9;
-    for (int i = 0; i <= 4000; ++i) least = std::min(least, violation(0.3 + 0.0001 * i));
-    EXPECT_LE(violation(best_time(s, 0.5)), least + 1e-9) << error.transpose();
+    for (int i = 0; i <= 4000; ++i) least = std::min(least, distance(0.3 + 0.0001 * i));
+    EXPECT_LE(distance(best_time(s, 0.5)), least + 1e-9) << error.transpose();
+  }
+}
+
+TEST(ReachRegion, ScaledLengthLeavesTheWidth) {
+  const Parameters parameters;
+  const ReachRegion reach = ReachRegion(parameters).scaled_length(0.5);
+  for (const Side side : {Side::left, Side::right}) {
+    const double outward = -lateral_sign(side);
+    const Footstep stance{Vec2::Zero(), 0.0, side};
+    const Vec2 far = reach.clamp(stance, {9.0, 9.0 * outward});
+    EXPECT_NEAR(far.x(), 0.5 * parameters.max_step_length, 1e-12);
+    EXPECT_NEAR(far.y() * outward, parameters.max_step_width, 1e-12);
+    EXPECT_NEAR(reach.clamp(stance, {-9.0, 0.0}).x(), -0.5 * parameters.max_step_length, 1e-12);
+    EXPECT_NEAR(reach.clamp(stance, Vec2::Zero()).y() * outward, parameters.min_step_width, 1e-12);
   }
 }
 

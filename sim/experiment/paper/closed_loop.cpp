@@ -21,7 +21,8 @@ LipmParameters paper_plant(double noise, std::uint64_t seed) {
   return truth;
 }
 
-const engine::WalkingTargets& ClosedLoop::tick(const engine::Vec2& force) {
+const engine::WalkingTargets& ClosedLoop::tick(
+    const std::function<engine::Vec2(const engine::WalkingTargets&)>& force) {
   const engine::WalkingTargets& t = engine_.update(plant_.measurement());
   sample_.time = time();
   sample_.zmp.reference = t.zmp_reference;
@@ -35,7 +36,8 @@ const engine::WalkingTargets& ClosedLoop::tick(const engine::Vec2& force) {
   }
   sample_.com.actual = plant_.truth().com.head<2>();
   sample_.dcm.actual = plant_.dcm();
-  const AppliedForce push{"", Vec3::Zero(), Vec3(force.x(), force.y(), 0.0)};
+  const Vec2 acting = force(t);
+  const AppliedForce push{"", Vec3::Zero(), Vec3(acting.x(), acting.y(), 0.0)};
   plant_.step(t, {&push, 1});
   sample_.zmp.actual = plant_.truth().zmp;
   ++ticks_;

@@ -1,6 +1,8 @@
 // The engine on the pendulum: one tick after the other, with what the paper's figures show.
 #pragma once
 
+#include <functional>
+
 #include "engine/walking_engine.h"
 #include "sim/experiment/paper/trace.h"
 #include "sim/plant/lipm_plant.h"
@@ -30,7 +32,12 @@ class ClosedLoop {
   }
 
   /// Decides, and lets the plant move on under a force on its CoM [N].
-  const engine::WalkingTargets& tick(const engine::Vec2& force = engine::Vec2::Zero());
+  const engine::WalkingTargets& tick(const engine::Vec2& force = engine::Vec2::Zero()) {
+    return tick([&force](const engine::WalkingTargets&) { return force; });
+  }
+  /// The same with a force that depends on what was decided.
+  const engine::WalkingTargets& tick(
+      const std::function<engine::Vec2(const engine::WalkingTargets&)>& force);
   /// The tick that was last decided, the plant as it was then.
   const TraceSample& sample() const { return sample_; }
 

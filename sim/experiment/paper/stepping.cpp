@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "engine/reference.h"
-#include "sim/experiment/capturability.h"
+#include "sim/experiment/median.h"
 #include "sim/experiment/parallel.h"
+#include "sim/experiment/push_ceiling.h"
 
 namespace stagger::sim {
 namespace {
@@ -16,16 +17,10 @@ constexpr double watch_s = 6.0;
 
 Vec2 unit(double direction) { return {std::cos(direction), std::sin(direction)}; }
 
-ConvexSet corners(const engine::ConvexPolygon& polygon) {
-  ConvexSet set;
+engine::ConvexSet corners(const engine::ConvexPolygon& polygon) {
+  engine::ConvexSet set;
   for (std::size_t i = 0; i < polygon.size(); ++i) set.push_back(polygon.vertex(i));
   return set;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
 double& of(StrategyForces& forces, SteppingStrategy strategy) {
@@ -77,33 +72,26 @@ SteppingOutcome run_stepping(const SteppingSetup& setup, double force, Trace* tr
   const double step = setup.parameters.t_ss + setup.parameters.t_ds;
   const int latest = static_cast<int>((setup.parameters.t_init + 5.0 * step) / tick);
 
-  SteppingOutcome outcome;
-  const auto tick_once = [&](double f) -> const engine::WalkingTargets& {
-    const engine::WalkingTargets& t = loop.tick(f * unit(setup.direction));
-    if (trace != nullptr) trace->push_back(loop.sample());
-    return t;
-  };
-  const auto pushed_now = [&](const engine::WalkingTargets& t) {
-    // Told of the tick that has just passed: the push is to begin with the next one. The nominal
-    // time counts, whatever noise has done to the step's.
-    return t.state == WalkingState::single_support && t.step_count == steps_before_push &&
-           setup.parameters.t_ss - t.phase_time - tick <= setup.t_left + 1e-9;
-  };
-
   loop.engine().walk({});
-  int i = 0;
-  while (i++ < latest && !pushed_now(tick_once(0.0))) {
-    if (!loop.plant().fall_reason().empty()) break;
-  }
-  const Vec2 stance = loop.plant().truth().feet[engine::index(Side::left)].position.head<2>();
+  SteppingOutcome outcome;
+  const Vec2 push = force * unit(setup.direction);
+  int pushed = -1;
   bool landed = false;
-  for (i = 0; i < watch_ticks; ++i) {
-    const engine::WalkingTargets& t = tick_once(i < push_ticks ? force : 0.0);
+  for (int i = 0; pushed < 0 ? i < latest : i < pushed + watch_ticks; ++i) {
+    const engine::WalkingTargets& t = loop.tick([&](const engine::WalkingTargets& targets) -> Vec2 {
+      // The nominal time counts, whatever noise has done to the step's.
+      const bool due = targets.state == WalkingState::single_support &&
+                       targets.step_count == steps_before_push &&
+                       setup.parameters.t_ss - targets.phase_time <= setup.t_left + 1e-9;
+      if (pushed < 0 && due) pushed = i;
+      return pushed >= 0 && i < pushed + push_ticks ? push : Vec2(Vec2::Zero());
+    });
+    if (trace != nullptr) trace->push_back(loop.sample());
     if (!landed && t.step_count > steps_before_push) {
       landed = true;
       outcome.time_change = t.t_ss - setup.parameters.t_ss;
-      outcome.landing =
-          loop.plant().truth().feet[engine::index(Side::right)].position.x() - stance.x();
+      const auto& feet = loop.plant().truth().feet;
+      outcome.landing = (feet[1].position - feet[0].position).x();
     }
     if (!loop.plant().fall_reason().empty()) {
       outcome.fell = true;
@@ -117,7 +105,7 @@ double stepping_ceiling(const SteppingSetup& setup, SteppingStrategy strategy) {
   const engine::Parameters& p = setup.parameters;
   const double omega = engine::natural_frequency(p);
   const engine::ReachRegion reach(p);
-  StepAbility ability;
+  engine::StepAbility ability;
   ability.omega = omega;
   ability.sole = {{-p.foot_half_length, -p.foot_half_width},
                   {p.foot_half_length, -p.foot_half_width},

@@ -53,7 +53,7 @@ struct SteppingOutcome {
 /// Watches for `watch_s` after the push; what happens goes into `trace` if there is one.
 SteppingOutcome run_stepping(const SteppingSetup& setup, double force, Trace* trace = nullptr);
 
-/// Force that no controller survives [N]; see capturability.h.
+/// Force that no controller survives [N]; see push_ceiling.h.
 double stepping_ceiling(const SteppingSetup& setup, SteppingStrategy strategy);
 
 /// Lowest force at which the robot falls [N], found on a ladder of `rungs` up to 5 % above the

@@ -1,12 +1,10 @@
-#include "sim/experiment/convex_set.h"
+#include "engine/convex_set.h"
 
 #include <algorithm>
 #include <limits>
 
-namespace stagger::sim {
+namespace stagger::engine {
 namespace {
-
-using engine::Vec2;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -106,4 +104,4 @@ double margin(const ConvexSet& set, const Vec2& point) {
   return least;
 }
 
-}  // namespace stagger::sim
+}  // namespace stagger::engine

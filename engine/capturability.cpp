@@ -1,9 +1,8 @@
-#include "sim/experiment/capturability.h"
+#include "engine/capturability.h"
 
-#include <algorithm>
 #include <cmath>
 
-namespace stagger::sim {
+namespace stagger::engine {
 namespace {
 
 /// DCM at touchdown, from the left stance foot, such that the DCM at the next lift-off can be in
@@ -50,15 +49,4 @@ ConvexSet viable_dcm(const StepAbility& ability, double earliest, double latest)
   return before(ability, at_touchdown(ability, viable_dcm(ability)), earliest, latest);
 }
 
-double push_ceiling(const StepAbility& ability, const CeilingPush& push) {
-  const double left = push.t_left - push.duration;
-  const double earliest = std::max(left - ability.sooner, 0.0);
-  const ConvexSet after = viable_dcm(ability, earliest, std::max(left + ability.later, earliest));
-  // zeta' = E zeta - (E - 1) p + (E - 1) / (m w^2) F with E = e^{w duration}.
-  const double growth = std::expm1(ability.omega * push.duration);
-  const ConvexSet jump =
-      shifted(minkowski_sum(after, scaled(ability.sole, growth)), -(1.0 + growth) * push.dcm);
-  return ray_exit(jump, push.direction) * push.mass * ability.omega * ability.omega / growth;
-}
-
-}  // namespace stagger::sim
+}  // namespace stagger::engine
