@@ -115,7 +115,10 @@ double stepping_ceiling(const SteppingSetup& setup, SteppingStrategy strategy) {
   if (strategy != SteppingStrategy::ankle) ability.reach = corners(reach.polygon(Side::left));
   ability.t_ss = p.t_ss;
   ability.t_ds = p.t_ds;
-  if (strategy == SteppingStrategy::time) ability.sooner = ability.later = p.time_limit;
+  if (strategy == SteppingStrategy::time) {
+    ability.sooner = std::clamp(p.t_ss - p.least_t_ss, 0.0, p.time_limit);
+    ability.later = p.time_limit;
+  }
 
   CeilingPush push;
   push.direction = unit(setup.direction);
