@@ -105,25 +105,68 @@ Json limits_json(const std::vector<sim::SteppingLimits>& all) {
   return list;
 }
 
+Json figures_json(const sim::PaperFit& figures) {
+  return {{"ankle_n", figures.ankle_n},       {"location_n", figures.location_n},
+          {"time_n", figures.time_n},         {"land_350_m", figures.land_350_m},
+          {"land_400_m", figures.land_400_m}, {"dt_412_s", figures.dt_412_s},
+          {"dt_460_s", figures.dt_460_s}};
+}
+
 Json published_json() {
-  return {{"ankle_n", published::ankle_fall},
-          {"location_n", published::location_fall},
-          {"time_n", published::time_fall},
-          {"location_survived_n", published::location_survived},
-          {"time_survived_n", published::time_survived},
-          {"land_350_m", published::landing_at_350},
-          {"land_400_m", published::landing_at_400},
-          {"dt_412_s", published::time_change_at_412},
-          {"dt_460_s", published::time_change_at_460},
-          {"gain_percent",
-           {{"location", published::location_gain},
-            {"time", published::time_gain},
-            {"total", published::total_gain}}}};
+  Json json = figures_json(sim::published_figures);
+  json["location_survived_n"] = published::location_survived;
+  json["time_survived_n"] = published::time_survived;
+  json["gain_percent"] = {{"location", published::location_gain},
+                          {"time", published::time_gain},
+                          {"total", published::total_gain}};
+  return json;
+}
+
+Json paper_fit_json(const sim::PaperFit& fit) {
+  Json json = figures_json(fit);
+  json["gain_percent"] = {{"location", gain(fit.location_n, fit.ankle_n)},
+                          {"time", gain(fit.time_n, fit.location_n)},
+                          {"total", gain(fit.time_n, fit.ankle_n)}};
+  json["worst_deviation_percent"] = 100.0 * sim::worst_deviation(fit);
+  return json;
+}
+
+std::string_view name_of(sim::SteppingStrategy strategy) {
+  switch (strategy) {
+    case sim::SteppingStrategy::ankle:
+      return "ankle";
+    case sim::SteppingStrategy::location:
+      return "location";
+    case sim::SteppingStrategy::time:
+      break;
+  }
+  return "time";
+}
+
+Json pushes_json(const std::vector<sim::PushComparison>& pushes) {
+  Json list = Json::array();
+  for (const sim::PushComparison& push : pushes) {
+    list.push_back({{"force_n", push.published.force},
+                    {"strategy", name_of(push.published.strategy)},
+                    {"fell", push.ours.fell},
+                    {"land_m", push.ours.landing},
+                    {"dt_s", push.ours.time_change},
+                    {"published",
+                     {{"fell", push.published.fell},
+                      {"land_m", or_null(push.published.landing)},
+                      {"dt_s", or_null(push.published.time_change)}}}});
+  }
+  return list;
 }
 
 Json stepping_json(const sim::SteppingFigures& figures) {
   Json json{{"stagger", limits_json(figures.limits)}};
   if (!figures.directions.empty()) json["directions"] = limits_json(figures.directions);
+  if (figures.paper_fit) json["paper_fit"] = paper_fit_json(*figures.paper_fit);
+  if (!figures.pushes.empty()) {
+    json["pushes"] = {{"stagger", pushes_json(figures.pushes)},
+                      {"paper_fit", pushes_json(figures.fit_pushes)}};
+  }
   json["published"] = published_json();
   return json;
 }

@@ -67,6 +67,7 @@ figcaption { margin-top: 12px; max-width: 96ch; color: var(--muted); font-size: 
 .columns-2 { grid-template-columns: repeat(2, minmax(0, 1fr)); }
 .columns-3 { grid-template-columns: repeat(3, minmax(0, 1fr)); }
 .columns-4 { grid-template-columns: repeat(4, minmax(0, 1fr)); }
+.legend > svg { display: block; width: 560px; max-width: 100%; height: auto; margin-bottom: 8px; }
 .pictures > svg { display: block; width: 100%; height: auto; }
 @media (max-width: 760px) {
   .columns-2, .columns-3, .columns-4 { grid-template-columns: minmax(0, 1fr); }
@@ -160,8 +161,11 @@ class Writer {
 
   void operator()(const Figure& figure) {
     const int columns = std::clamp(figure.columns, 1, 4);
-    out += "<figure id=\"" + escaped(figure.id) + "\">\n<div class=\"pictures columns-" +
-           std::to_string(columns) + "\">\n";
+    out += "<figure id=\"" + escaped(figure.id) + "\">\n";
+    if (!figure.legend.empty()) {
+      out += "<div class=\"legend\">\n" + figure.legend + "</div>\n";
+    }
+    out += "<div class=\"pictures columns-" + std::to_string(columns) + "\">\n";
     for (const std::string& picture : figure.pictures) out += picture;
     out += "</div>\n" + element("figcaption", figure.caption) + "\n</figure>\n";
   }

@@ -34,10 +34,13 @@ struct Figure {
   std::string caption;
   int columns = 2;                    ///< 1 to 4 on a wide page
   std::vector<std::string> pictures;  ///< SVG elements
+  std::string legend = "";            ///< SVG element over all of them, or nothing
 };
 
 /// Width of a picture that is shown one to one in a figure of so many columns [px].
 double picture_width(int columns);
+/// Width of a legend that fits on a narrow page as well [px].
+inline constexpr double legend_width = 560.0;
 
 using Block = std::variant<Paragraph, Table, Figure>;
 

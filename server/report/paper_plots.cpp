@@ -232,6 +232,33 @@ std::vector<Plot> tracking_plots(const sim::TrackingResult& tracking) {
   return plots;
 }
 
+std::string strategy_text(sim::SteppingStrategy strategy) {
+  return strategy_names[static_cast<std::size_t>(strategy)];
+}
+
+Plot push_plot(const sim::PushComparison& push, double width, std::string id) {
+  sim::Trace trace = push.trace;
+  for (sim::TraceSample& sample : trace) sample.time -= push.ours.push_time;
+  const Range shown{-0.5, 2.5};
+  std::erase_if(
+      trace, [&](const sim::TraceSample& s) { return s.time < shown.low || s.time > shown.high; });
+  Plot plot = trajectory_plot(trace, GroundAxis::x, std::move(id),
+                              fixed(push.published.force, 0) + " N, " +
+                                  strategy_text(push.published.strategy) +
+                                  (push.ours.fell ? ": falls" : ""));
+  plot.description = "CoM, DCM and ZMP around a push, with their references dashed.";
+  plot.width = width;
+  plot.height = 0.85 * width;
+  plot.x.label = "time from the push (s)";
+  plot.x.range = shown;
+  // Once lost, the rest of the way down says nothing.
+  plot.y.range = Range{-0.25, 1.15};
+  const Plot zmp = zmp_plot(trace, GroundAxis::x, "", "");
+  plot.layers.insert(plot.layers.begin(), zmp.layers.begin(), zmp.layers.end());
+  if (auto* line = std::get_if<LineLayer>(&plot.layers[1])) line->stroke = zmp_stroke;
+  return plot;
+}
+
 Plot standing_map(const sim::StandingResult& result, double width, std::string id,
                   std::string title) {
   const engine::Parameters parameters = sim::paper_parameters();

@@ -23,6 +23,10 @@ Plot trajectory_plot(const sim::Trace& trace, GroundAxis axis, std::string id, s
 /// ZMP between the edges of what it stands on.
 Plot zmp_plot(const sim::Trace& trace, GroundAxis axis, std::string id, std::string title);
 
+/// One of the paper's pushes along x, from half a second before it.
+Plot push_plot(const sim::PushComparison& push, double width, std::string id);
+std::string strategy_text(sim::SteppingStrategy strategy);
+
 /// The 441 states with what became of them.
 Plot standing_map(const sim::StandingResult& result, double width, std::string id,
                   std::string title);

@@ -15,6 +15,18 @@ std::vector<std::string> drawn(const std::vector<Plot>& plots) {
   return pictures;
 }
 
+/// One legend over plots that would all have much the same.
+Figure with_one_legend(const std::string& id, std::string caption, int columns,
+                       std::vector<Plot> plots) {
+  Plot all;
+  all.id = id;
+  for (Plot& plot : plots) {
+    plot.legend = false;
+    all.layers.insert(all.layers.end(), plot.layers.begin(), plot.layers.end());
+  }
+  return {id, std::move(caption), columns, drawn(plots), legend_to_svg(all, legend_width)};
+}
+
 Table summary_table(const sim::PaperResults& results) {
   Table table;
   table.caption = "Every number, with what the paper publishes and what no controller can exceed";
@@ -109,10 +121,57 @@ Section standing_section(const sim::StandingFigures& figures) {
                   "Two neighbours on the grid, one on either side of the bound. The band is the "
                   "foot; with the ZMP at its edge and the DCM outside, the fall cannot be stopped.",
                   2, drawn(examples)},
-           Figure{"figure-hip",
-                  "The same with a flywheel for the upper body, by torque, inertia and greatest "
-                  "lean: the torque moves the bound outwards until the lean is used up.",
-                  3, drawn(hips)}}};
+           with_one_legend(
+               "figure-hip",
+               "The same with a flywheel for the upper body, by torque, inertia and greatest "
+               "lean: the torque moves the bound outwards until the lean is used up.",
+               3, std::move(hips))}};
+}
+
+Table push_table(const sim::SteppingFigures& figures) {
+  Table table;
+  table.caption = "The paper's eight pushes, with our own settings and with those fitted to it";
+  table.columns = {{"Push", false},
+                   {"Strategies", false},
+                   {"Published", false},
+                   {"Our settings", false},
+                   {"Fitted", false}};
+  const auto lands = [](double metres) { return "lands at " + fixed(metres, 2) + " m"; };
+  const auto changes = [](double seconds) { return "step " + fixed(seconds, 2) + " s"; };
+  const auto published = [&](const sim::PublishedPush& push) -> std::string {
+    if (push.fell) return "falls";
+    if (push.landing) return lands(*push.landing);
+    if (push.time_change) return changes(*push.time_change);
+    return "recovers";
+  };
+  const auto ours = [&](const sim::PushComparison& push) -> std::string {
+    if (push.ours.fell) return "falls";
+    std::string text = lands(push.ours.landing);
+    if (push.published.strategy == sim::SteppingStrategy::time) {
+      text += ", " + changes(push.ours.time_change);
+    }
+    return text;
+  };
+  for (std::size_t i = 0; i < figures.pushes.size(); ++i) {
+    const sim::PublishedPush& push = figures.pushes[i].published;
+    table.rows.push_back({{fixed(push.force, 0) + " N", strategy_text(push.strategy),
+                           published(push), ours(figures.pushes[i]), ours(figures.fit_pushes[i])},
+                          false});
+  }
+  return table;
+}
+
+Figure push_figure(const std::vector<sim::PushComparison>& pushes, const std::string& id,
+                   const std::string& settings) {
+  std::vector<Plot> plots;
+  for (const sim::PushComparison& push : pushes) {
+    plots.push_back(push_plot(push, picture_width(4), id + "-" + std::to_string(plots.size() + 1)));
+  }
+  return with_one_legend("figure-" + id,
+                         "The paper's eight pushes of 10 ms forward, " + settings +
+                             ": CoM, DCM and ZMP along x. The band is where the ZMP can be; it "
+                             "moves when the step lands.",
+                         4, std::move(plots));
 }
 
 Section stepping_section(const sim::SteppingFigures& figures) {
@@ -141,13 +200,19 @@ Section stepping_section(const sim::SteppingFigures& figures) {
     plots.push_back(direction_plot(around, picture_width(3),
                                    "scenario2-directions-" + std::to_string(plots.size() + 1)));
   }
-  section.blocks.emplace_back(Figure{
+  section.blocks.emplace_back(with_one_legend(
       "figure-directions",
       "First fall in eight directions, seen from above; the left foot stands. Titles: single "
       "support / double support / single support left at the push. Only the dots are "
       "measured, the lines between them guide the eye. Legs do not cross: pushes to the "
       "left find little room for a step.",
-      3, drawn(plots)});
+      3, std::move(plots)));
+  if (!figures.pushes.empty()) {
+    section.blocks.emplace_back(push_table(figures));
+    section.blocks.emplace_back(push_figure(figures.pushes, "pushes", "with our own settings"));
+    section.blocks.emplace_back(
+        push_figure(figures.fit_pushes, "fit-pushes", "with settings fitted to the paper"));
+  }
   return section;
 }
 

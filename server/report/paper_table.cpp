@@ -97,12 +97,32 @@ PaperGroup stepping_group(const sim::SteppingLimits& limits) {
     return r;
   };
   group.rows = {
-      row("Ankle", &sim::StrategyForces::ankle, newtons(published::ankle_fall)),
+      row("Ankle", &sim::StrategyForces::ankle, newtons(sim::published_figures.ankle_n)),
       row("Ankle and place of the step", &sim::StrategyForces::location,
-          newtons(published::location_survived) + "\u2013" + newtons(published::location_fall)),
+          newtons(published::location_survived) + "\u2013" +
+              newtons(sim::published_figures.location_n)),
       row("Ankle, place and time of the step", &sim::StrategyForces::time,
-          newtons(published::time_survived) + "\u2013" + newtons(published::time_fall))};
+          newtons(published::time_survived) + "\u2013" + newtons(sim::published_figures.time_n))};
   return group;
+}
+
+PaperGroup paper_fit_group(const sim::PaperFit& fit) {
+  const sim::PaperFit& printed = sim::published_figures;
+  const auto row = [](const char* name, const char* unit, double ours, double theirs,
+                      int decimals) {
+    PaperRow r = row_of(name, unit);
+    r.ours = fixed(ours, decimals);
+    r.published = fixed(theirs, decimals);
+    return r;
+  };
+  return {"Scenario 2 by settings fitted to the published numbers",
+          {row("First fall, ankle", "N", fit.ankle_n, printed.ankle_n, 0),
+           row("First fall, ankle and place", "N", fit.location_n, printed.location_n, 0),
+           row("First fall, ankle, place and time", "N", fit.time_n, printed.time_n, 0),
+           row("Landing at 350 N, place", "m", fit.land_350_m, printed.land_350_m, 2),
+           row("Landing at 400 N, place", "m", fit.land_400_m, printed.land_400_m, 2),
+           row("Change of single support at 412 N", "s", fit.dt_412_s, printed.dt_412_s, 2),
+           row("Change of single support at 460 N", "s", fit.dt_460_s, printed.dt_460_s, 2)}};
 }
 
 std::size_t characters(const std::string& text) {
@@ -122,6 +142,8 @@ std::vector<PaperGroup> paper_table(const sim::PaperResults& results) {
     for (const sim::SteppingLimits& limits : results.stepping->limits) {
       groups.push_back(stepping_group(limits));
     }
+    if (results.stepping->paper_fit)
+      groups.push_back(paper_fit_group(*results.stepping->paper_fit));
   }
   return groups;
 }

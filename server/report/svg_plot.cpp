@@ -71,7 +71,6 @@ std::string name_of(const Layer& layer) {
 
 Legend lay_out_legend(const Plot& plot, double width) {
   Legend legend;
-  if (!plot.legend) return legend;
   Pixel at;
   for (const Layer& layer : plot.layers) {
     const std::string name = name_of(layer);
@@ -204,6 +203,14 @@ void draw_sample(Svg& svg, const Layer& layer, const Pixel& at) {
   }
 }
 
+void draw_legend(Svg& svg, const Legend& legend, double top) {
+  for (const LegendEntry& entry : legend.entries) {
+    const Pixel at{entry.at.x, top + entry.at.y};
+    draw_sample(svg, *entry.layer, at);
+    svg.text({at.x + legend_sample + space, at.y}, entry.name, "tick");
+  }
+}
+
 void draw_axes(Svg& svg, const Plot& plot, const Frame& frame, const AxisLayout& x,
                const AxisLayout& y, const Drawing& drawing) {
   const double bottom = frame.top + frame.height;
@@ -237,7 +244,7 @@ Range x_range(const std::vector<Layer>& layers) { return range_of(layers, &DataP
 Range y_range(const std::vector<Layer>& layers) { return range_of(layers, &DataPoint::y); }
 
 std::string to_svg(const Plot& plot) {
-  const Legend legend = lay_out_legend(plot, plot.width - right_margin);
+  const Legend legend = plot.legend ? lay_out_legend(plot, plot.width - right_margin) : Legend{};
   Frame frame;
   frame.top = (plot.title.empty() ? space : title_font + 2.0 * space) + legend.height + space;
   frame.height =
@@ -265,17 +272,20 @@ std::string to_svg(const Plot& plot) {
   Svg svg(plot.id, plot.width, plot.height, plot.title, plot.description);
   if (!plot.title.empty()) svg.text({0.0, title_font}, plot.title, "title");
   const double legend_top = plot.title.empty() ? font : title_font + 2.0 * space + font - 2.0;
-  for (const LegendEntry& entry : legend.entries) {
-    const Pixel at{entry.at.x, legend_top + entry.at.y};
-    draw_sample(svg, *entry.layer, at);
-    svg.text({at.x + legend_sample + space, at.y}, entry.name, "tick");
-  }
+  draw_legend(svg, legend, legend_top);
   const Drawing drawing(svg, frame, x.range, y.range);
   draw_axes(svg, plot, frame, x, y, drawing);
   svg.begin_clip({frame.left, frame.top}, frame.width, frame.height);
   for (const Layer& layer : plot.layers) std::visit(drawing, layer);
   svg.end_clip();
   svg.outline({frame.left, frame.top}, frame.width, frame.height, {Ink::ground, 1.0});
+  return std::move(svg).finish();
+}
+
+std::string legend_to_svg(const Plot& plot, double width) {
+  const Legend legend = lay_out_legend(plot, width);
+  Svg svg(plot.id + "-legend", width, legend.height, "Legend", "What the lines and fillings mean.");
+  draw_legend(svg, legend, font);
   return std::move(svg).finish();
 }
 

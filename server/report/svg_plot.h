@@ -85,6 +85,8 @@ struct Plot {
 
 /// The plot as one <svg> element.
 std::string to_svg(const Plot& plot);
+/// Its legend alone, for several plots that share one; "-legend" is added to the id.
+std::string legend_to_svg(const Plot& plot, double width);
 
 /// Smallest range with all data of the layers on one axis; notes do not count.
 Range x_range(const std::vector<Layer>& layers);

@@ -45,6 +45,9 @@ SteppingFigures run_scenario2(const PaperRequest& request) {
   }
   figures.limits = stepping_limits(forward, request.seeds);
   figures.directions = stepping_limits(around, 0);
+  figures.paper_fit = run_paper_fit();
+  figures.pushes = run_published_pushes(SteppingProfile::stagger, true);
+  figures.fit_pushes = run_published_pushes(SteppingProfile::paper_fit, true);
   return figures;
 }
 

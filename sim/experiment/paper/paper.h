@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "sim/experiment/paper/paper_fit.h"
 #include "sim/experiment/paper/plan.h"
 #include "sim/experiment/paper/standing.h"
 #include "sim/experiment/paper/stepping.h"
@@ -40,8 +41,12 @@ struct StandingFigures {
 };
 
 struct SteppingFigures {
-  std::vector<SteppingLimits> limits;      ///< forward, or what was asked for
+  std::vector<SteppingLimits> limits;  ///< forward, or what was asked for
+  // Not for a timing that was asked for:
   std::vector<SteppingLimits> directions;  ///< the other seven directions, without noise
+  std::optional<PaperFit> paper_fit;
+  std::vector<PushComparison> pushes;      ///< of the paper's figures, our own settings
+  std::vector<PushComparison> fit_pushes;  ///< the same by the fit
 };
 
 struct PaperResults {

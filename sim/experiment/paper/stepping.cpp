@@ -83,7 +83,10 @@ SteppingOutcome run_stepping(const SteppingSetup& setup, double force, Trace* tr
       const bool due = targets.state == WalkingState::single_support &&
                        targets.step_count == steps_before_push &&
                        setup.parameters.t_ss - targets.phase_time <= setup.t_left + 1e-9;
-      if (pushed < 0 && due) pushed = i;
+      if (pushed < 0 && due) {
+        pushed = i;
+        outcome.push_time = loop.time();
+      }
       return pushed >= 0 && i < pushed + push_ticks ? push : Vec2(Vec2::Zero());
     });
     if (trace != nullptr) trace->push_back(loop.sample());

@@ -44,6 +44,7 @@ inline constexpr double push_duration = 0.01;  ///< [s]
 
 struct SteppingOutcome {
   bool fell = false;
+  double push_time = 0.0;  ///< when the push began [s]
   /// The step under way at the push: where it landed from the stance foot, forward [m], and by how
   /// much its single support was changed [s].
   double landing = 0.0;
