@@ -52,9 +52,9 @@ Json standing_json(const sim::StandingFigures& figures) {
   noise["noise_std_m"] = sim::paper_noise;
   Json hips = Json::array();
   for (const sim::StandingResult& result : figures.hips) {
-    Json hip{{"torque_nm", result.hip.torque},
-             {"inertia", result.hip.inertia},
-             {"angle_rad", result.hip.angle}};
+    Json hip{{"torque_nm", result.setup.hip.torque},
+             {"inertia", result.setup.hip.inertia},
+             {"angle_rad", result.setup.hip.angle}};
     hip.update(standing_json(result));
     hip["largest_angle_rad"] = result.largest_angle;
     hips.push_back(std::move(hip));

@@ -251,8 +251,6 @@ Plot push_plot(const sim::PushComparison& push, double width, std::string id) {
   plot.height = 0.85 * width;
   plot.x.label = "time from the push (s)";
   plot.x.range = shown;
-  // Once lost, the rest of the way down says nothing.
-  plot.y.range = Range{-0.25, 1.15};
   const Plot zmp = zmp_plot(trace, GroundAxis::x, "", "");
   plot.layers.insert(plot.layers.begin(), zmp.layers.begin(), zmp.layers.end());
   if (auto* line = std::get_if<LineLayer>(&plot.layers[1])) line->stroke = zmp_stroke;
@@ -263,7 +261,7 @@ Plot standing_map(const sim::StandingResult& result, double width, std::string i
                   std::string title) {
   const engine::Parameters parameters = sim::paper_parameters();
   const double omega = engine::natural_frequency(parameters);
-  const double bound = sim::standing_bound(parameters, result.hip);
+  const double bound = sim::standing_bound(result.setup);
   Plot plot;
   plot.id = std::move(id);
   plot.title = std::move(title);

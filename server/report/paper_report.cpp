@@ -101,7 +101,7 @@ Section standing_section(const sim::StandingFigures& figures) {
   std::vector<Plot> hips;
   for (const sim::StandingResult& result : figures.hips) {
     hips.push_back(standing_map(result, narrow, "scenario1-hip-" + std::to_string(hips.size() + 1),
-                                hip_title(result.hip) + ": " + count_of(result)));
+                                hip_title(result.setup.hip) + ": " + count_of(result)));
   }
   const auto example = [](const sim::StandingExample& e, const char* id, const char* fate) {
     return standing_example_plot(e, id,
@@ -167,6 +167,14 @@ Figure push_figure(const std::vector<sim::PushComparison>& pushes, const std::st
   for (const sim::PushComparison& push : pushes) {
     plots.push_back(push_plot(push, picture_width(4), id + "-" + std::to_string(plots.size() + 1)));
   }
+  // The same range for all, from those that recover: once lost, the rest of the way down says
+  // nothing.
+  std::vector<Layer> shown;
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    if (pushes[i].ours.fell) continue;
+    shown.insert(shown.end(), plots[i].layers.begin(), plots[i].layers.end());
+  }
+  for (Plot& plot : plots) plot.y.range = padded(y_range(shown));
   return with_one_legend("figure-" + id,
                          "The paper's eight pushes of 10 ms forward, " + settings +
                              ": CoM, DCM and ZMP along x. The band is where the ZMP can be; it "

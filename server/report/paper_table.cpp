@@ -71,9 +71,9 @@ PaperGroup standing_group(const sim::StandingFigures& figures) {
   group.rows.push_back(row("Ankle", figures.ankle));
   group.rows.back().noise = std::to_string(figures.ankle_noise.recovered);
   for (const sim::StandingResult& result : figures.hips) {
-    group.rows.push_back(row("Ankle and hip: " + fixed(result.hip.torque, 0) + " N m, " +
-                                 fixed(result.hip.inertia, 1) + " kg m², " +
-                                 fixed(result.hip.angle, 1) + " rad",
+    group.rows.push_back(row("Ankle and hip: " + fixed(result.setup.hip.torque, 0) + " N m, " +
+                                 fixed(result.setup.hip.inertia, 1) + " kg m², " +
+                                 fixed(result.setup.hip.angle, 1) + " rad",
                              result));
   }
   return group;

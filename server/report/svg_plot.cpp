@@ -98,13 +98,6 @@ struct AxisLayout {
   std::vector<Axis::Mark> marks;
 };
 
-/// With a little room, so that no line runs along the frame.
-Range padded(const Range& data) {
-  constexpr double share = 0.04;
-  const Range r = usable(data);
-  return {r.low - share * r.span(), r.high + share * r.span()};
-}
-
 AxisLayout lay_out_axis(const Axis& axis, const Range& data, int most) {
   AxisLayout layout;
   layout.range = axis.range ? usable(*axis.range) : padded(data);
@@ -239,6 +232,12 @@ void draw_axes(Svg& svg, const Plot& plot, const Frame& frame, const AxisLayout&
 }
 
 }  // namespace
+
+Range padded(const Range& data) {
+  constexpr double share = 0.04;
+  const Range r = usable(data);
+  return {r.low - share * r.span(), r.high + share * r.span()};
+}
 
 Range x_range(const std::vector<Layer>& layers) { return range_of(layers, &DataPoint::x); }
 Range y_range(const std::vector<Layer>& layers) { return range_of(layers, &DataPoint::y); }

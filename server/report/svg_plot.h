@@ -65,7 +65,7 @@ struct Axis {
     std::string text;
   };
   std::string label;           ///< with the unit: "x (m)"
-  std::optional<Range> range;  ///< what lies beyond is cut off; all data when left out
+  std::optional<Range> range;  ///< what lies beyond is cut off; left out: all data, padded
   std::vector<Mark> marks;     ///< instead of numbers at nice places
   bool grid = true;
 };
@@ -91,5 +91,7 @@ std::string legend_to_svg(const Plot& plot, double width);
 /// Smallest range with all data of the layers on one axis; notes do not count.
 Range x_range(const std::vector<Layer>& layers);
 Range y_range(const std::vector<Layer>& layers);
+/// With a little room, so that no line runs along the frame.
+Range padded(const Range& data);
 
 }  // namespace stagger::server

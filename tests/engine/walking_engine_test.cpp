@@ -169,7 +169,9 @@ TEST(WalkingEngine, WithoutStepsThatPushIsTooMuch) {
 }
 
 TEST(WalkingEngine, TheSwingFootGoesToTheAdjustedStep) {
-  Walk walk;
+  Parameters parameters = quick();
+  parameters.ankle_share = 0.0;  // leave all of the catch to the step
+  Walk walk(parameters);
   walk.engine().walk({});
   walk.run(4.05);
   while (walk.engine().targets().state != WalkingState::single_support) walk.run(0.001);
@@ -179,6 +181,32 @@ TEST(WalkingEngine, TheSwingFootGoesToTheAdjustedStep) {
   const Side landed = other(walk.engine().targets().support_side);
   // 0.2 / omega, magnified until touchdown and by the transfer: about 0.18 m.
   EXPECT_GT(walk.measurement().feet[index(landed)].position.x(), 0.12);
+}
+
+/// Where the swing foot lands, forward from its stance foot, after a push 0.1 s into the step.
+double landing_after(double push, double ankle_share) {
+  Parameters parameters = quick();
+  parameters.ankle_share = ankle_share;
+  Walk walk(parameters);
+  walk.engine().walk({});
+  walk.run(4.05);
+  while (walk.engine().targets().state != WalkingState::single_support) walk.run(0.001);
+  walk.run(0.1);
+  walk.push({push, 0.0});
+  while (walk.engine().targets().state == WalkingState::single_support) walk.run(0.001);
+  const auto& feet = walk.measurement().feet;
+  const Side stance = walk.engine().targets().support_side;
+  return feet[index(other(stance))].position.x() - feet[index(stance)].position.x();
+}
+
+TEST(WalkingEngine, TheAnkleDoesItsShareOfTheCatch) {
+  // 0.05 m/s need the ZMP 2 cm ahead until touchdown: less than 0.3 of the sole, so no step
+  // changes.
+  EXPECT_NEAR(landing_after(0.05, 0.3), 0.0, 1e-9);
+  EXPECT_GT(landing_after(0.05, 0.0), 0.02);
+  // A harder push takes both: a shorter step than without the ankle, and a step all the same.
+  EXPECT_GT(landing_after(0.3, 0.3), 0.1);
+  EXPECT_LT(landing_after(0.3, 0.3), landing_after(0.3, 0.0) - 0.03);
 }
 
 TEST(WalkingEngine, StepsSoonerWhenTheLongestStepIsTooShort) {

@@ -13,8 +13,11 @@ engine::Parameters paper_parameters(double noise) {
   return p;
 }
 
-LipmParameters paper_plant(double noise, std::uint64_t seed) {
+LipmParameters paper_plant(double noise, std::uint64_t seed, const ModelError& error) {
   LipmParameters truth;
+  truth.mass *= error.mass;
+  truth.com_height *= error.com_height;
+  truth.delay = error.delay;
   truth.noise = noise;
   truth.seed = seed;
   truth.reach = 3.0;  // fallen by divergence, as the paper has it, not by a touch of the edge

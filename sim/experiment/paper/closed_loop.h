@@ -12,8 +12,16 @@ namespace stagger::sim {
 /// The paper's robot (its table I), as the engine believes it to be: 500 Hz, and a Kalman filter
 /// that knows the standard deviation of the noise on the measured CoM and DCM [m].
 engine::Parameters paper_parameters(double noise = 0.0);
+/// What the robot really is, beside what the engine believes.
+struct ModelError {
+  double mass = 1.0;        ///< true / believed
+  double com_height = 1.0;  ///< true / believed
+  double delay = 0.0;       ///< age of the measurement [s]
+};
+
 /// The same robot as it is.
-LipmParameters paper_plant(double noise = 0.0, std::uint64_t seed = 1);
+LipmParameters paper_plant(double noise = 0.0, std::uint64_t seed = 1,
+                           const ModelError& error = {});
 
 /// Standard deviation of the paper's measurement noise: N(0, 6.25e-4), read as a variance [m].
 inline constexpr double paper_noise = 0.025;

@@ -14,14 +14,15 @@ StandingFigures run_scenario1(int noise_seeds) {
   figures.ankle = run_standing();
   figures.noise_seeds = noise_seeds;
   for (int seed = 1; seed <= noise_seeds; ++seed) {
-    StandingResult result = run_standing({}, paper_noise, static_cast<std::uint64_t>(seed));
+    StandingResult result = run_standing(
+        {.hip = {}, .noise = paper_noise, .seed = static_cast<std::uint64_t>(seed), .error = {}});
     figures.noise_beyond += result.beyond;
     if (seed == 1 || result.recovered < figures.ankle_noise.recovered) {
       figures.ankle_noise = std::move(result);
     }
   }
   for (const engine::HipParameters& hip : standing_hips()) {
-    figures.hips.push_back(run_standing(hip));
+    figures.hips.push_back(run_standing({.hip = hip, .noise = 0.0, .seed = 1, .error = {}}));
   }
   // Neighbours on the grid on either side of the bound.
   figures.recovered = example(-0.10, 0.5);

@@ -13,9 +13,15 @@ struct StandingState {
   bool recovered = false;   ///< |c| < 1 cm and |v| < 3 cm/s after 2 s, and not fallen 3 s later
 };
 
+struct StandingSetup {
+  engine::HipParameters hip;  ///< no torque: ankle alone
+  double noise = 0.0;         ///< standard deviation of the measured CoM and DCM [m]
+  std::uint64_t seed = 1;     ///< of the noise
+  ModelError error;
+};
+
 struct StandingResult {
-  engine::HipParameters hip;   ///< no torque: ankle alone
-  double noise = 0.0;          ///< [m]
+  StandingSetup setup;
   int bound = 0;               ///< states that are capturable
   int recovered = 0;           ///< and those that were brought to rest
   int beyond = 0;              ///< recovered although the bound says that nobody can: must be 0
@@ -24,14 +30,13 @@ struct StandingResult {
 };
 
 /// |c + v/w| <= half foot + d with d = tau/(m g) (1 - e^{-w T1})^2, T1 = sqrt(J theta/tau): the
-/// ZMP at the edge, and the flywheel thrown to its limit and stopped there.
-double standing_bound(const engine::Parameters& parameters, const engine::HipParameters& hip);
+/// ZMP at the edge, and the flywheel thrown to its limit and stopped there. Of the true robot [m].
+double standing_bound(const StandingSetup& setup);
 
 /// The grid of the paper: position -0.2..0.2 m by 0.02, velocity -1..1 m/s by 0.1.
-StandingResult run_standing(const engine::HipParameters& hip = {}, double noise = 0.0,
-                            std::uint64_t seed = 1);
+StandingResult run_standing(const StandingSetup& setup = {});
 
 /// One of them as a trace of 2 s, for the paper's examples.
-Trace standing_trace(double position, double velocity, const engine::HipParameters& hip = {});
+Trace standing_trace(double position, double velocity, const StandingSetup& setup = {});
 
 }  // namespace stagger::sim

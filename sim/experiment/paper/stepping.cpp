@@ -13,7 +13,7 @@ namespace {
 
 /// The push comes in the third step: by then the gait has forgotten its start.
 constexpr std::uint64_t steps_before_push = 2;
-constexpr double watch_s = 6.0;
+constexpr double watch_s = 5.0;
 
 Vec2 unit(double direction) { return {std::cos(direction), std::sin(direction)}; }
 
@@ -23,7 +23,16 @@ engine::ConvexSet corners(const engine::ConvexPolygon& polygon) {
   return set;
 }
 
-double& of(StrategyForces& forces, SteppingStrategy strategy) {
+}  // namespace
+
+engine::Strategies strategies_of(SteppingStrategy strategy) {
+  return {.ankle = true,
+          .hip = false,
+          .step = strategy != SteppingStrategy::ankle,
+          .time = strategy == SteppingStrategy::time};
+}
+
+double& force_of(StrategyForces& forces, SteppingStrategy strategy) {
   switch (strategy) {
     case SteppingStrategy::ankle:
       return forces.ankle;
@@ -33,15 +42,6 @@ double& of(StrategyForces& forces, SteppingStrategy strategy) {
       break;
   }
   return forces.time;
-}
-
-}  // namespace
-
-engine::Strategies strategies_of(SteppingStrategy strategy) {
-  return {.ankle = true,
-          .hip = false,
-          .step = strategy != SteppingStrategy::ankle,
-          .time = strategy == SteppingStrategy::time};
 }
 
 std::vector<PushTiming> stepping_timings() {
@@ -55,10 +55,7 @@ SteppingSetup stepping_setup(const PushTiming& timing, SteppingStrategy strategy
   setup.parameters.t_ss = timing.t_ss;
   setup.parameters.t_ds = timing.t_ds;
   setup.parameters.strategies = strategies_of(strategy);
-  setup.truth = paper_plant(noise, seed);
-  setup.truth.mass *= error.mass;
-  setup.truth.com_height *= error.com_height;
-  setup.truth.delay = error.delay;
+  setup.truth = paper_plant(noise, seed, error);
   setup.t_left = timing.t_left;
   return setup;
 }
@@ -189,16 +186,16 @@ std::vector<SteppingLimits> stepping_limits(
     const Search& search = searches[i];
     SteppingLimits& limit = limits[search.condition];
     if (search.seed == 0) {
-      of(limit.fall, search.strategy) = found[i].fall;
-      of(limit.ceiling, search.strategy) = found[i].ceiling;
+      force_of(limit.fall, search.strategy) = found[i].fall;
+      force_of(limit.ceiling, search.strategy) = found[i].ceiling;
       noisy.clear();
     } else {
       noisy.push_back(found[i].fall);
       if (search.seed < noise_seeds) continue;
       const auto [least, greatest] = std::minmax_element(noisy.begin(), noisy.end());
-      of(limit.noise_least, search.strategy) = *least;
-      of(limit.noise_greatest, search.strategy) = *greatest;
-      of(limit.noise_median, search.strategy) = median(noisy);
+      force_of(limit.noise_least, search.strategy) = *least;
+      force_of(limit.noise_greatest, search.strategy) = *greatest;
+      force_of(limit.noise_median, search.strategy) = median(noisy);
     }
   }
   return limits;

@@ -21,13 +21,6 @@ inline constexpr std::array stepping_strategies{SteppingStrategy::ankle, Steppin
                                                 SteppingStrategy::time};
 engine::Strategies strategies_of(SteppingStrategy strategy);
 
-/// What the robot really is, beside what the engine believes.
-struct ModelError {
-  double mass = 1.0;        ///< true / believed
-  double com_height = 1.0;  ///< true / believed
-  double delay = 0.0;       ///< age of the measurement [s]
-};
-
 struct SteppingSetup {
   engine::Parameters parameters;
   LipmParameters truth;
@@ -66,6 +59,8 @@ struct StrategyForces {
   double location = 0.0;  ///< [N]
   double time = 0.0;      ///< [N]
 };
+
+double& force_of(StrategyForces& forces, SteppingStrategy strategy);
 
 struct SteppingLimits {
   PushTiming timing;
