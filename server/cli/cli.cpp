@@ -89,7 +89,7 @@ int run_command_line(int argc, char** argv) {
   CLI::App* paper_app =
       app.add_subcommand("paper", "Repeat the paper's experiments, beside its numbers");
   paper_app->add_option("section", paper.section, "One of them alone")
-      ->check(CLI::IsMember({"plan", "lqg", "scenario1", "scenario2"}));
+      ->check(CLI::IsMember({"plan", "lqg", "scenario1", "scenario2", "robustness"}));
   paper_app->add_flag("--json", paper.json, "Print one JSON object");
   paper_app->add_option("--out", paper.out, "Folder to write report.html to");
   paper_app->add_option("--seeds", paper.seeds, "Seeds of everything that is tried under noise")

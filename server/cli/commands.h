@@ -41,7 +41,7 @@ struct RobotsOptions {
 };
 
 struct PaperOptions {
-  std::string section;  ///< "plan", "lqg", "scenario1", "scenario2"; empty: all of them
+  std::string section;  ///< "plan", "lqg", "scenario1", "scenario2", "robustness"; empty: all
   bool json = false;
   std::string out;  ///< folder of the report; empty: none
   int seeds = 20;

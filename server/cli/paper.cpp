@@ -56,6 +56,7 @@ sim::PaperRequest request_of(const PaperOptions& options) {
   request.tracking = wanted("lqg");
   request.standing = wanted("scenario1");
   request.stepping = wanted("scenario2");
+  request.robustness = wanted("robustness");
   request.seeds = options.seeds;
   request.standing_seeds = std::min(options.seeds, most_standing_seeds);
   if (options.t_ss) {

@@ -171,6 +171,29 @@ Json stepping_json(const sim::SteppingFigures& figures) {
   return json;
 }
 
+Json robustness_json(const std::vector<sim::RobustnessResult>& results) {
+  Json list = Json::array();
+  const std::vector<sim::PushTiming> timings = sim::stepping_timings();
+  for (const sim::RobustnessResult& result : results) {
+    Json falls = Json::array();
+    for (std::size_t i = 0; i < result.fall.size(); ++i) {
+      Json fall{
+          {"t_ss", timings[i].t_ss}, {"t_ds", timings[i].t_ds}, {"t_left", timings[i].t_left}};
+      fall.update(forces_json(result.fall[i]));
+      falls.push_back(std::move(fall));
+    }
+    list.push_back({{"mass", result.error.mass},
+                    {"com_height", result.error.com_height},
+                    {"delay_s", result.error.delay},
+                    {"scenario1",
+                     {{"recovered", result.standing_recovered}, {"bound", result.standing_bound}}},
+                    {"scenario2", std::move(falls)},
+                    {"unpushed_falls", result.unpushed_falls},
+                    {"unpushed_runs", result.unpushed_runs}});
+  }
+  return list;
+}
+
 }  // namespace
 
 Json paper_json(const sim::PaperResults& results) {
@@ -179,6 +202,7 @@ Json paper_json(const sim::PaperResults& results) {
   if (results.tracking) json["lqg"] = tracking_json(*results.tracking);
   if (results.standing) json["scenario1"] = standing_json(*results.standing);
   if (results.stepping) json["scenario2"] = stepping_json(*results.stepping);
+  if (!results.robustness.empty()) json["robustness"] = robustness_json(results.robustness);
   json["version"] = STAGGER_VERSION;
   return json;
 }

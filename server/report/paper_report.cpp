@@ -224,6 +224,32 @@ Section stepping_section(const sim::SteppingFigures& figures) {
   return section;
 }
 
+Section robustness_section(const std::vector<sim::RobustnessResult>& results) {
+  Table table;
+  table.caption =
+      "First fall as a share of that without error, least over the five timings; states of "
+      "scenario "
+      "1 of those that the true robot could recover; falls without any push";
+  table.columns = {{"True robot", false}, {"Ankle", true},          {"Ankle and place", true},
+                   {"All three", true},   {"States at rest", true}, {"Falls unpushed", true}};
+  for (const sim::RobustnessResult& result : results) {
+    const auto share = [&](double sim::StrategyForces::*strategy) {
+      return fixed(100.0 * least_share(result, results.front(), strategy), 0) + " %";
+    };
+    table.rows.push_back(
+        {{error_text(result.error), share(&sim::StrategyForces::ankle),
+          share(&sim::StrategyForces::location), share(&sim::StrategyForces::time),
+          std::to_string(result.standing_recovered) + " of " +
+              std::to_string(result.standing_bound),
+          std::to_string(result.unpushed_falls) + " of " + std::to_string(result.unpushed_runs)},
+         false});
+  }
+  return {"robustness",
+          "Robustness: an engine that is wrong about its robot",
+          {Paragraph{"The engine keeps its settings; the robot that it moves is another one."},
+           std::move(table)}};
+}
+
 }  // namespace
 
 std::string paper_report(const sim::PaperResults& results, const std::string& command) {
@@ -250,6 +276,9 @@ std::string paper_report(const sim::PaperResults& results, const std::string& co
   if (results.tracking) page.sections.push_back(tracking_section(*results.tracking));
   if (results.standing) page.sections.push_back(standing_section(*results.standing));
   if (results.stepping) page.sections.push_back(stepping_section(*results.stepping));
+  if (!results.robustness.empty()) {
+    page.sections.push_back(robustness_section(results.robustness));
+  }
   return to_html(page);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -125,6 +126,23 @@ PaperGroup paper_fit_group(const sim::PaperFit& fit) {
            row("Change of single support at 460 N", "s", fit.dt_460_s, printed.dt_460_s, 2)}};
 }
 
+PaperGroup robustness_group(const std::vector<sim::RobustnessResult>& results) {
+  PaperGroup group;
+  group.title = "The engine wrong about its robot: first fall, of that without error, least of all";
+  for (const sim::RobustnessResult& result : results) {
+    if (&result == &results.front()) continue;
+    PaperRow row = row_of("True robot: " + error_text(result.error), "%");
+    double least = 1.0;
+    for (const auto strategy : {&sim::StrategyForces::ankle, &sim::StrategyForces::location,
+                                &sim::StrategyForces::time}) {
+      least = std::min(least, least_share(result, results.front(), strategy));
+    }
+    row.ours = fixed(100.0 * least, 0);
+    group.rows.push_back(std::move(row));
+  }
+  return group;
+}
+
 std::size_t characters(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
@@ -145,6 +163,7 @@ std::vector<PaperGroup> paper_table(const sim::PaperResults& results) {
     if (results.stepping->paper_fit)
       groups.push_back(paper_fit_group(*results.stepping->paper_fit));
   }
+  if (!results.robustness.empty()) groups.push_back(robustness_group(results.robustness));
   return groups;
 }
 
@@ -188,6 +207,29 @@ std::string to_columns(const std::vector<PaperGroup>& groups) {
 std::string timing_text(const sim::PushTiming& timing) {
   return coordinate(timing.t_ss, 3) + " / " + coordinate(timing.t_ds, 3) + " / " +
          coordinate(timing.t_left, 3);
+}
+
+std::string error_text(const sim::ModelError& error) {
+  std::string text;
+  const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  const auto percent = [](double factor) {
+    return std::string(factor > 1.0 ? " +" : " \u2212") + fixed(100.0 * std::abs(factor - 1.0), 0) +
+           " %";
+  };
+  if (error.mass != 1.0) add("mass" + percent(error.mass));
+  if (error.com_height != 1.0) add("CoM height" + percent(error.com_height));
+  if (error.delay > 0.0) add("delay " + fixed(1e3 * error.delay, 0) + " ms");
+  return text.empty() ? "no error" : text;
+}
+
+double least_share(const sim::RobustnessResult& result, const sim::RobustnessResult& without,
+                   double sim::StrategyForces::*strategy) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < std::min(result.fall.size(), without.fall.size()); ++i) {
+    if (!(without.fall[i].*strategy > 0.0)) continue;
+    least = std::min(least, result.fall[i].*strategy / (without.fall[i].*strategy));
+  }
+  return least;
 }
 
 std::string direction_text(double direction) {

@@ -32,6 +32,12 @@ std::string to_columns(const std::vector<PaperGroup>& groups);
 /// "0.8 / 0.2 / 0.6": T_ss, T_ds and what is left of single support [s].
 std::string timing_text(const sim::PushTiming& timing);
 
+/// "mass + 10 %, delay 20 ms", or "no error".
+std::string error_text(const sim::ModelError& error);
+/// Force with an error of the model over the one without: least over the timings.
+double least_share(const sim::RobustnessResult& result, const sim::RobustnessResult& without,
+                   double sim::StrategyForces::*strategy);
+
 /// "forward", "45° to the left", "backward", ...
 std::string direction_text(double direction);
 

@@ -72,6 +72,7 @@ PaperResults run_paper(const PaperRequest& request) {
   if (request.tracking) results.tracking = run_tracking(request.seeds);
   if (request.standing) results.standing = run_scenario1(request.standing_seeds);
   if (request.stepping) results.stepping = run_scenario2(request);
+  if (request.robustness) results.robustness = run_robustness();
   return results;
 }
 

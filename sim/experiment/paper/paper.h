@@ -5,6 +5,7 @@
 
 #include "sim/experiment/paper/paper_fit.h"
 #include "sim/experiment/paper/plan.h"
+#include "sim/experiment/paper/robustness.h"
 #include "sim/experiment/paper/standing.h"
 #include "sim/experiment/paper/stepping.h"
 #include "sim/experiment/paper/tracking.h"
@@ -16,6 +17,7 @@ struct PaperRequest {
   bool tracking = true;
   bool standing = true;
   bool stepping = true;
+  bool robustness = true;
   int seeds = 20;          ///< of tracking, and of the push limits under noise; at least 1
   int standing_seeds = 5;  ///< of standing under noise; at least 1
   /// Stepping: this timing and direction [rad] alone, instead of the five timings and all around.
@@ -54,6 +56,7 @@ struct PaperResults {
   std::optional<TrackingResult> tracking;
   std::optional<StandingFigures> standing;
   std::optional<SteppingFigures> stepping;
+  std::vector<RobustnessResult> robustness;  ///< empty when not asked for
 };
 
 /// Takes all cores; the result depends on the request alone.
