@@ -132,7 +132,7 @@ PaperGroup robustness_group(const std::vector<sim::RobustnessResult>& results) {
   for (const sim::RobustnessResult& result : results) {
     if (&result == &results.front()) continue;
     PaperRow row = row_of("True robot: " + error_text(result.error), "%");
-    double least = 1.0;
+    double least = std::numeric_limits<double>::infinity();
     for (const auto strategy : {&sim::StrategyForces::ankle, &sim::StrategyForces::location,
                                 &sim::StrategyForces::time}) {
       least = std::min(least, least_share(result, results.front(), strategy));
