@@ -9,6 +9,14 @@ namespace stagger::engine {
 namespace {
 
 Eigen::RowVector3d design_feedback(const Parameters& p, const DiscreteLipm& lipm) {
+  const Eigen::Matrix<double, 1, 1> r(p.lqr_zmp_weight * p.tick);
+  const Eigen::Matrix3d q = (p.lqr_state_weight * p.tick).asDiagonal();
+  if (p.lqr_state_weight(2) == 0.0) {
+    // An integrator that costs nothing would stay at z = 1, and the design would have no solution.
+    Eigen::RowVector3d gain = Eigen::RowVector3d::Zero();
+    gain.head<2>() = lqr_gain(lipm.a, lipm.b, q.topLeftCorner<2, 2>(), r);
+    return gain;
+  }
   // [CoM error, DCM error, integral of CoM error]; one integral only: both are not stabilisable.
   Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
   a.topLeftCorner<2, 2>() = lipm.a;
@@ -16,8 +24,6 @@ Eigen::RowVector3d design_feedback(const Parameters& p, const DiscreteLipm& lipm
   a(2, 2) = 1.0;
   Eigen::Vector3d b;
   b << lipm.b, 0.0;
-  const Eigen::Matrix3d q = (p.lqr_state_weight * p.tick).asDiagonal();
-  const Eigen::Matrix<double, 1, 1> r(p.lqr_zmp_weight * p.tick);
   return lqr_gain(a, b, q, r);
 }
 

@@ -58,7 +58,7 @@ struct Parameters {
   bool allow_crossing = false;
 
   // LQG weights, scaled by the control period: diag(CoM error, DCM error, integral of CoM error),
-  // ZMP.
+  // ZMP. A weight of 0 for the integral: no integrator.
   Vec3 lqr_state_weight{1.0, 100.0, 1.0};
   double lqr_zmp_weight = 10.0;
   double process_noise = 1e-6;         ///< variance of [c, dcm] a tick [m^2]
@@ -72,8 +72,11 @@ struct Parameters {
   double step_freeze = 0.06;  ///< place and time stay as they are in the last part of the swing [s]
   double time_limit = 0.2;    ///< |adjusted - nominal| single support duration [s]
   double time_constant = 0.04;  ///< of the lag filter of eq. (13): k_f = tick / time_constant [s]
-  double least_t_ss = 0.15;     ///< no single support is adjusted to less [s]
-  double swing_speed = 1e9;     ///< greatest speed of the swing foot [m/s]
+  /// A step that would have to be longer than this share of what the leg reaches comes sooner
+  /// instead, in (0, 1]. With 1 the time is adjusted only once the place has done all it can.
+  double time_reach = 1.0;
+  double least_t_ss = 0.15;  ///< no single support is adjusted to less [s]
+  double swing_speed = 1e9;  ///< greatest speed of the swing foot [m/s]
 
   double contact_load = 20.0;      ///< a swing foot that carries more has landed [N]
   double landing_patience = 0.10;  ///< how long single support waits for a late landing [s]

@@ -10,10 +10,10 @@ ConvexPolygon box(const Parameters& p) {
   return ConvexPolygon(corners);
 }
 
-ConvexPolygon mirrored(const ConvexPolygon& polygon) {
+ConvexPolygon stretched(const ConvexPolygon& polygon, const Vec2& factors) {
   std::array<Vec2, ConvexPolygon::capacity> points;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    points[i] = {polygon.vertex(i).x(), -polygon.vertex(i).y()};
+    points[i] = polygon.vertex(i).cwiseProduct(factors);
   }
   return ConvexPolygon(std::span(points).first(polygon.size()));
 }
@@ -23,7 +23,11 @@ ConvexPolygon mirrored(const ConvexPolygon& polygon) {
 ReachRegion::ReachRegion(const Parameters& parameters) : ReachRegion(box(parameters)) {}
 
 ReachRegion::ReachRegion(const ConvexPolygon& left_stance)
-    : polygons_{left_stance, mirrored(left_stance)} {}
+    : polygons_{left_stance, stretched(left_stance, {1.0, -1.0})} {}
+
+ReachRegion ReachRegion::scaled_length(double share) const {
+  return ReachRegion(stretched(polygon(Side::left), {share, 1.0}));
+}
 
 Vec2 ReachRegion::clamp(const Footstep& stance, const Vec2& foothold) const {
   const Vec2 step = rotated(foothold - stance.position, -stance.yaw);

@@ -16,6 +16,9 @@ class ReachRegion {
   /// Any convex region, e.g. from a leg's kinematics.
   explicit ReachRegion(const ConvexPolygon& left_stance);
 
+  /// The same with all steps this much shorter or longer, forward and backward; as wide as before.
+  ReachRegion scaled_length(double share) const;
+
   /// In the frame of the stance foot.
   const ConvexPolygon& polygon(Side stance) const { return polygons_[index(stance)]; }
   /// The reachable place nearest to `foothold`, world frame.

@@ -72,6 +72,7 @@ WalkingEngine::WalkingEngine(const Parameters& parameters, const Measurement& st
       sole_{parameters.foot_half_length - parameters.sole_margin,
             parameters.foot_half_width - parameters.sole_margin},
       reach_(reach),
+      time_reach_(reach.scaled_length(parameters.time_reach)),
       capture_(parameters, reach),
       machine_(parameters),
       lqg_(make_lqg(parameters)),
@@ -390,7 +391,7 @@ void WalkingEngine::adjust_step_time(StepSituation now) {
     lean_on_ankle(now, nominal - passed);
     if (adjust_step(now, nominal - passed, omega_, reach_, parameters_).adjusted) {
       wanted = passed + adjust_time(now, nominal - passed, earliest - passed, latest - passed,
-                                    omega_, reach_);  // (12')
+                                    omega_, time_reach_);  // (12')
     }
   }
   // (13'), about the nominal time: nothing accumulates.

@@ -105,6 +105,7 @@ class WalkingEngine {
   double omega_;
   Sole sole_;
   ReachRegion reach_;
+  ReachRegion time_reach_;  ///< what the step time is adjusted for
   CaptureRegion capture_;
   StateMachine machine_;
   Lqg lqg_;

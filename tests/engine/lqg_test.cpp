@@ -16,6 +16,30 @@ TEST(Lqg, FeedbackGainOfTheRecommendedWeights) {
   EXPECT_LT((lqg.feedback_gain() - expected).cwiseAbs().maxCoeff(), 1e-5);
 }
 
+// Expected gains: the same other solver's, for CoM and DCM alone.
+TEST(Lqg, NoWeightOnTheIntegralMeansNoIntegrator) {
+  Parameters parameters;
+  parameters.lqr_state_weight = {1.0, 10.0, 0.0};
+  parameters.lqr_zmp_weight = 1.0;
+  const Lqg lqg{parameters};
+  const Eigen::RowVector3d expected(-0.1116, -4.3057, 0.0);
+  EXPECT_LT((lqg.feedback_gain() - expected).cwiseAbs().maxCoeff(), 1e-4);
+  EXPECT_EQ(lqg.feedback_gain()(2), 0.0);
+
+  // The same on a loop: the gain moves the DCM back into the middle.
+  Lqg controller{parameters};
+  const DiscreteLipm plant = discretise(natural_frequency(parameters), parameters.tick);
+  const ConvexPolygon polygon = support_polygon(Sole{0.075, 0.0375}, foot_at(0.0, 0.0));
+  Eigen::Matrix2d state;
+  state << 0.0, 0.0, 0.03, 0.0;
+  for (int i = 0; i < 5000; ++i) {
+    controller.estimate(state.row(0), state.row(1));
+    const Vec2 zmp = controller.control({}, polygon, {}, true, true);
+    state = (plant.a * state + plant.b * zmp.transpose()).eval();
+  }
+  EXPECT_LT(state.cwiseAbs().maxCoeff(), 1e-6);
+}
+
 TEST(Lqg, EstimatorGainOfTheQuietSetting) {
   Parameters parameters;
   parameters.process_noise = 1e-8;

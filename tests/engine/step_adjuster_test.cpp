@@ -135,5 +135,19 @@ TEST(StepTime, FindsTheLeastDistanceByAnyOther) {
   }
 }
 
+TEST(ReachRegion, ScaledLengthLeavesTheWidth) {
+  const Parameters parameters;
+  const ReachRegion reach = ReachRegion(parameters).scaled_length(0.5);
+  for (const Side side : {Side::left, Side::right}) {
+    const double outward = -lateral_sign(side);
+    const Footstep stance{Vec2::Zero(), 0.0, side};
+    const Vec2 far = reach.clamp(stance, {9.0, 9.0 * outward});
+    EXPECT_NEAR(far.x(), 0.5 * parameters.max_step_length, 1e-12);
+    EXPECT_NEAR(far.y() * outward, parameters.max_step_width, 1e-12);
+    EXPECT_NEAR(reach.clamp(stance, {-9.0, 0.0}).x(), -0.5 * parameters.max_step_length, 1e-12);
+    EXPECT_NEAR(reach.clamp(stance, Vec2::Zero()).y() * outward, parameters.min_step_width, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace stagger::engine

@@ -161,6 +161,37 @@ TEST(WalkingEngine, StepsSoonerWhenTheLongestStepIsTooShort) {
   EXPECT_TRUE(survives({}));
 }
 
+TEST(WalkingEngine, StepsSoonerRatherThanBeyondTheTimesReach) {
+  struct Landing {
+    double length;
+    double time_change;
+  };
+  const auto push = [](double time_reach) {
+    Parameters parameters = quick();
+    parameters.max_step_length = 0.3;
+    parameters.time_reach = time_reach;
+    parameters.time_constant = 0.01;
+    Walk walk(parameters);
+    walk.engine().walk({});
+    walk.run(4.05);
+    while (walk.engine().targets().state != WalkingState::single_support) walk.run(0.001);
+    const Side stance = walk.engine().targets().support_side;
+    const double from = walk.measurement().feet[index(stance)].position.x();
+    walk.run(0.1);
+    walk.push({0.2, 0.0});  // wants 0.18 m of the 0.3 m
+    while (walk.engine().targets().state == WalkingState::single_support) walk.run(0.001);
+    return Landing{walk.measurement().feet[index(other(stance))].position.x() - from,
+                   walk.engine().targets().t_ss - parameters.t_ss};
+  };
+  const Landing whole = push(1.0);
+  EXPECT_NEAR(whole.time_change, 0.0, 2e-3);
+  const Landing most = push(0.4);
+  EXPECT_LT(most.time_change, -0.02);
+  EXPECT_LT(most.length, whole.length - 0.02);
+  // Beyond this share still, where the time has done what it may.
+  EXPECT_GT(most.length, 0.1);
+}
+
 TEST(WalkingEngine, KeepsTheNominalTimeWhileNothingIsWrong) {
   Walk walk;
   walk.engine().walk({0.2, 0.0, 0.0});

@@ -32,6 +32,12 @@ const engine::WalkingTargets& ClosedLoop::tick(
   sample_.zmp.reference = t.zmp_reference;
   sample_.com.reference = t.com_reference;
   sample_.dcm.reference = t.dcm_reference;
+  const engine::ConvexPolygon& sole = engine_.support_polygon();
+  sample_.sole_low = sample_.sole_high = sole.vertex(0);
+  for (std::size_t i = 1; i < sole.size(); ++i) {
+    sample_.sole_low = sample_.sole_low.cwiseMin(sole.vertex(i));
+    sample_.sole_high = sample_.sole_high.cwiseMax(sole.vertex(i));
+  }
   sample_.com.actual = plant_.truth().com.head<2>();
   sample_.dcm.actual = plant_.dcm();
   const Vec2 acting = force(t);
