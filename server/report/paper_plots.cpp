@@ -330,7 +330,9 @@ Plot stepping_bars(const std::vector<sim::SteppingLimits>& limits) {
   plot.width = picture_width(1);
   plot.height = 420.0;
   plot.x.label = "single support / double support / single support left at the push (s)";
-  plot.x.range = Range{-0.52, static_cast<double>(limits.size()) - 0.44};
+  // A few bars do not become wide ones.
+  const double free = std::max(0.0, 0.5 * (3.0 - static_cast<double>(limits.size())));
+  plot.x.range = Range{-0.52 - free, static_cast<double>(limits.size()) - 0.44 + free};
   plot.x.grid = false;
   plot.y.label = "force for 10 ms (N)";
   std::array<BoxLayer, 3> bars;

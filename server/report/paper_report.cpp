@@ -11,6 +11,7 @@ namespace {
 
 std::vector<std::string> drawn(const std::vector<Plot>& plots) {
   std::vector<std::string> pictures;
+  pictures.reserve(plots.size());
   for (const Plot& plot : plots) pictures.push_back(to_svg(plot));
   return pictures;
 }
@@ -164,6 +165,7 @@ Table push_table(const sim::SteppingFigures& figures) {
 Figure push_figure(const std::vector<sim::PushComparison>& pushes, const std::string& id,
                    const std::string& settings) {
   std::vector<Plot> plots;
+  plots.reserve(pushes.size());
   for (const sim::PushComparison& push : pushes) {
     plots.push_back(push_plot(push, picture_width(4), id + "-" + std::to_string(plots.size() + 1)));
   }
@@ -267,10 +269,10 @@ std::string paper_report(const sim::PaperResults& results, const std::string& co
   page.summary.emplace_back(summary_table(results));
   if (results.stepping) {
     page.summary.emplace_back(Paragraph{
-        "The paper gives no gait timing with its forces: its numbers stand beside every timing, as "
-        "the greatest force survived and the one that falls. Forces under noise are medians; noise "
-        "moves the robot before the push already, so that they can lie above the ceiling, which is "
-        "that of the undisturbed gait."});
+        "The paper pushes forward, and gives no gait timing with its forces: its numbers stand "
+        "beside every timing, as the greatest force survived and the one that falls. Forces under "
+        "noise are medians; noise moves the robot before the push already, so that they can lie "
+        "above the ceiling, which is that of the undisturbed gait."});
   }
   if (results.plan) page.sections.push_back(plan_section(*results.plan));
   if (results.tracking) page.sections.push_back(tracking_section(*results.tracking));

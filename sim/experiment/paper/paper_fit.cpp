@@ -100,6 +100,7 @@ PaperFit run_noisy_paper_fit(int seeds) {
   PaperFit medians;
   for (const Question& question : questions) {
     std::vector<double> values;
+    values.reserve(runs.size());
     for (const PaperFit& run : runs) values.push_back(run.*question.figure);
     medians.*question.figure = median(values);
   }

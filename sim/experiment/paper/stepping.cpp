@@ -178,6 +178,7 @@ std::vector<SteppingLimits> stepping_limits(
   });
 
   std::vector<SteppingLimits> limits;
+  limits.reserve(conditions.size());
   for (const auto& [timing, direction] : conditions) {
     limits.push_back({timing, direction, {}, {}, {}, {}, {}, noise_seeds});
   }
