@@ -36,7 +36,7 @@ ConvexSet viable_dcm(const StepAbility& ability) {
   // A contraction by e^{-w (Tss + Tds)} a step: it converges from wherever it begins.
   const double shortest = ability.t_ss - ability.sooner;
   const double decay = ability.omega * (shortest + ability.t_ds);
-  constexpr double digits = 32.0;  // e^-32: below the nanometre that hulls are rounded to
+  constexpr double digits = 32.0;  // e^-32: below what hulls are rounded to
   const int steps = static_cast<int>(std::ceil(digits / decay));
   ConvexSet viable = ability.sole;
   for (int i = 0; i < steps; ++i) {

@@ -8,11 +8,11 @@ namespace {
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-constexpr double nanometre = 1e-9;
+constexpr double rounding = 1e-12;  // [m]
 
 /// Is b so near to the segment from a to c, or to its wrong side, that the hull can do without it?
 bool superfluous(const Vec2& a, const Vec2& b, const Vec2& c) {
-  return cross(b - a, c - a) <= nanometre * (c - a).norm();
+  return cross(b - a, c - a) <= rounding * (c - a).norm();
 }
 
 }  // namespace
@@ -21,7 +21,7 @@ ConvexSet convex_hull(std::vector<Vec2> points) {
   std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) {
     return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
   });
-  const auto same = [](const Vec2& a, const Vec2& b) { return (a - b).norm() < nanometre; };
+  const auto same = [](const Vec2& a, const Vec2& b) { return (a - b).norm() < rounding; };
   points.erase(std::unique(points.begin(), points.end(), same), points.end());
   if (points.size() < 3) return points;
   ConvexSet hull;

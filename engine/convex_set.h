@@ -11,7 +11,7 @@ namespace stagger::engine {
 /// Corners of a convex set, counter-clockwise.
 using ConvexSet = std::vector<Vec2>;
 
-/// Hull of any points; corners closer to a neighbouring edge than a nanometre are left out.
+/// Hull of any points; corners that stick out by no more than a rounding error are left out.
 ConvexSet convex_hull(std::vector<Vec2> points);
 ConvexSet hull_of(const ConvexSet& a, const ConvexSet& b);
 /// { a + b }.

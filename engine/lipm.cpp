@@ -23,11 +23,10 @@ Vec2 dcm_before(const ZmpSegment& segment, const Vec2& dcm_end, double tau, doub
 
 Vec2 com_after(const ZmpSegment& segment, const Vec2& com_start, const Vec2& dcm_start, double tau,
                double omega) {
-  // A step of the ZMP moves nothing by itself.
-  if (segment.duration <= 0.0) return com_start;
-  const Vec2 half = 0.5 * (dcm_start - segment.start - segment.velocity() / omega);
+  const Vec2 start = segment.zmp(0.0);  // of a segment of no duration that is its end
+  const Vec2 half = 0.5 * (dcm_start - start - segment.velocity() / omega);
   return segment.zmp(tau) + half * std::exp(omega * tau) +
-         (com_start - segment.start - half) * std::exp(-omega * tau);
+         (com_start - start - half) * std::exp(-omega * tau);
 }
 
 double transfer_factor(double t_ds, double omega) {

@@ -54,7 +54,8 @@ void Lqg::estimate(const Vec2& com, const Vec2& dcm) {
   Eigen::Matrix2d measured;
   measured.row(0) = com;
   measured.row(1) = dcm;
-  if (!started_) {
+  constexpr double lost = 1e6;  // a prediction without measurements runs away [m]
+  if (!started_ || !(state_.cwiseAbs().maxCoeff() < lost)) {
     state_ = measured;
     // No better known than one measurement tells: the next ones count as much.
     covariance_ = measurement_ * lipm_.a * lipm_.a.transpose();
@@ -92,11 +93,13 @@ Vec2 Lqg::control(const LqgReference& reference, const ConvexPolygon& polygon, c
   }
   Vec2 zmp = polygon.clamp(wanted);
   if (act && goal.region != nullptr) {
-    // What the command comes to when the plan's ZMP moves on under it, and what it lacks then.
-    const Vec2 held = polygon.clamp(zmp + goal.held - reference.zmp);
+    // What the command comes to when the plan's ZMP moves on under it: about the mean of where it
+    // is now and where it will be at the end, if no edge stops it.
+    const Vec2 end = polygon.clamp(zmp + 2.0 * (goal.held - reference.zmp));
+    const Vec2 held = 0.5 * (zmp + end);
     const Vec2 better = zmp_towards(goal, held, dcm(), polygon);
-    // A ZMP that moves on with the plan may run into an edge later: all that can be done is done at
-    // once. Gradually, lest it chatter where the goal is only just missed.
+    // Where that is not enough all that can be done is done at once; gradually, lest it chatter
+    // where the goal is only just missed.
     const double urgency = std::min((better - held).norm() / goal_blend, 1.0);
     zmp += urgency * (better - zmp);
   }

@@ -30,8 +30,9 @@ class Lqg {
   /// Throws std::invalid_argument when the weights have no stabilising gain.
   explicit Lqg(const Parameters& parameters);
 
-  /// Takes the measured CoM and DCM into the estimate, which starts at the first of them. Call once
-  /// a tick, before control().
+  /// Takes the measured CoM and DCM into the estimate, which starts at the first of them, and again
+  /// when it has got lost. Call once a tick, before control(); not at all in a tick without a
+  /// measurement, whose estimate is then the prediction.
   void estimate(const Vec2& com, const Vec2& dcm);
 
   /// ZMP command inside the polygon, and the prediction for the next tick. `shift` of the effective

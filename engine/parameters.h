@@ -47,8 +47,15 @@ struct Parameters {
   double sole_margin = 0.0;  ///< kept free inside the sole's edge when the ZMP is clamped [m]
 
   double max_step_length = 0.95;  ///< |x| of a step in the stance foot's frame [m]
-  double min_step_width = 0.10;   ///< least lateral distance of the feet, no crossing [m]
+  double min_step_width = 0.10;   ///< least lateral distance of the feet [m]
   double max_step_width = 0.60;   ///< greatest lateral distance of the feet [m]
+  double max_step_turn = 0.6;     ///< |yaw| of a step in the stance foot's frame [rad]
+  double foot_clearance = 0.01;   ///< least gap between the two soles [m]
+  /// Lets min_step_width be less than what keeps the soles apart side by side, and negative: the
+  /// foot may then land straight before or behind the stance foot, or so far on its other side. The
+  /// soles still never overlap. For adjusted steps and step lists; a commanded velocity does not
+  /// cross the feet. Nothing here keeps the legs from touching on the swing foot's way across.
+  bool allow_crossing = false;
 
   // LQG weights, scaled by the control period: diag(CoM error, DCM error, integral of CoM error),
   // ZMP. A weight of 0 for the integral: no integrator.
@@ -63,7 +70,7 @@ struct Parameters {
   /// where no step reaches.
   double ankle_share = 0.3;
   double step_gain = 1.0;     ///< k_sa of eq. (11)
-  double step_margin = 0.10;  ///< compliance margin on |Delta_f| [m]
+  double step_margin = 0.03;  ///< compliance margin on |Delta_f| [m]
   double step_freeze = 0.06;  ///< place and time stay as they are in the last part of the swing [s]
   double time_limit = 0.2;    ///< |adjusted - nominal| single support duration [s]
   double time_constant = 0.04;  ///< of the lag filter of eq. (13): k_f = tick / time_constant [s]
@@ -79,6 +86,10 @@ struct Parameters {
   HipParameters hip;
   Strategies strategies;
 };
+
+/// Throws std::invalid_argument, naming field, value and allowed range, at the first value that is
+/// not finite, out of its range, or does not go with another.
+void validate(const Parameters& parameters);
 
 /// sqrt((g + zdd) / z_c) with zdd = 0: natural frequency of the LIPM [1/s]; eq. (2).
 inline double natural_frequency(const Parameters& p) { return std::sqrt(p.gravity / p.com_height); }

@@ -6,9 +6,10 @@
 
 namespace stagger::engine {
 
-/// Footholds that the leg reaches and that neither cross nor crowd the stance foot. Written for the
-/// left foot standing: x forward, y to the left, so that the right foot's places have y < 0. The
-/// other leg's region is its mirror image.
+/// Footholds that the leg reaches and that neither cross nor crowd a parallel stance foot (unless
+/// allow_crossing lets the region go on beyond it). Written for the left foot standing: x forward,
+/// y to the left, so that the right foot's places have y < 0. The other leg's region is its mirror
+/// image. Which way the feet point, and so how near the soles come, is for step_limits.h.
 class ReachRegion {
  public:
   explicit ReachRegion(const Parameters& parameters);

@@ -21,6 +21,14 @@ Vec2 DcmPlan::advance_com(Vec2 com, double dt, double omega) const {
   return com;
 }
 
+Vec2 DcmPlan::dcm_after(double dt, double omega) const {
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (dt < segments_[i].duration) return dcm_before(segments_[i], dcm_[i + 1], dt, omega);
+    dt -= segments_[i].duration;
+  }
+  return dcm_[count_];
+}
+
 Vec2 periodic_dcm_offset(const Vec2& first, const Vec2& second, double t_ss, double t_ds,
                          double omega) {
   const double decay = std::exp(-omega * (t_ss + t_ds));

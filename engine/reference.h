@@ -21,6 +21,8 @@ class DcmPlan {
   const Vec2& dcm() const { return dcm_[0]; }
   /// Reference DCM at the end of segment i.
   const Vec2& dcm_at_end(std::size_t i) const { return dcm_[i + 1]; }
+  /// Reference DCM after dt; where the plan has ended by then, its terminal DCM.
+  Vec2 dcm_after(double dt, double omega) const;
   /// Reference ZMP now.
   Vec2 zmp() const { return segments_[0].zmp(0.0); }
   /// Where the CoM reference is after dt, starting from `com` now; passes over segment ends.

@@ -1,6 +1,7 @@
 #include "engine/state_machine.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace stagger::engine {
 
@@ -11,14 +12,30 @@ StateMachine::StateMachine(const Parameters& parameters)
       t_ss_(parameters.t_ss),
       t_ds_(parameters.t_ds) {}
 
+void StateMachine::start(std::size_t steps) {
+  if (last_step()) {
+    steps_then_ = steps;
+  } else {
+    steps_left_ = steps;
+  }
+}
+
 void StateMachine::stop() {
+  steps_then_ = 0;
   std::size_t needed = 0;
   if (state_ == WalkingState::single_support) {
-    needed = 2;  // the swing under way was planned to go on from, not to stand on
+    needed = time_ < 0.5 * t_ss_ ? 2 : 3;
   } else if (state_ == WalkingState::double_support) {
-    needed = 1;
+    needed = 2;
   }
   steps_left_ = std::min(steps_left_, needed);
+}
+
+void StateMachine::step_again() {
+  if (!closing_) return;
+  closing_ = false;
+  t_ds_ = nominal_.t_ds;
+  steps_left_ = 1;
 }
 
 std::size_t StateMachine::steps_ahead() const {
@@ -31,19 +48,24 @@ void StateMachine::enter_single_support() {
   t_ds_ = nominal_.t_ds;
 }
 
+Transition StateMachine::begin_shift() {
+  state_ = WalkingState::initialize;
+  time_ = 0.0;
+  closing_ = false;
+  return Transition::begin_shift;
+}
+
 Transition StateMachine::advance(const StateInputs& inputs) {
   // Times are sums of ticks: this keeps a sum that was rounded down from costing a whole tick.
   constexpr double rounding = 1e-9;
   switch (state_) {
     case WalkingState::idle:
-      if (!walking()) return Transition::none;
-      state_ = WalkingState::initialize;
-      time_ = 0.0;
-      return Transition::begin_shift;
+      return walking() ? begin_shift() : Transition::none;
 
     case WalkingState::initialize:
       if (!walking()) {
         state_ = WalkingState::idle;
+        time_ = 0.0;
         return Transition::stand;
       }
       if (time_ < t_init_ - rounding) return Transition::none;
@@ -60,11 +82,19 @@ Transition StateMachine::advance(const StateInputs& inputs) {
       state_ = WalkingState::double_support;
       ++landings_;
       if (steps_left_ != unlimited && steps_left_ > 0) --steps_left_;
-      if (steps_left_ == 0) t_ds_ = t_init_;
+      closing_ = steps_left_ == 0;
+      if (closing_) {
+        t_ds_ = t_init_;
+        steps_left_ = std::exchange(steps_then_, 0);
+      }
       return Transition::landing;
     }
 
     case WalkingState::double_support:
+      if (closing_ && walking()) {
+        support_ = other(support_);
+        return begin_shift();
+      }
       if (time_ < t_ss_ + t_ds_ - rounding) return Transition::none;
       time_ -= t_ss_ + t_ds_;
       support_ = other(support_);

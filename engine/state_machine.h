@@ -20,19 +20,28 @@ class StateMachine {
  public:
   explicit StateMachine(const Parameters& parameters);
 
+  /// More changes within a tick can only come from durations that are none.
+  static constexpr int most_transitions = 4;
   static constexpr std::size_t unlimited = static_cast<std::size_t>(-1);
 
-  /// Walk from the next tick on, for so many landings.
-  void start(std::size_t steps = unlimited) { steps_left_ = steps; }
-  /// One whole step more, then stand on both feet.
+  /// Walk from the next tick on, for so many landings. When the step under way is the last of a
+  /// walk that is ending, or has landed already, the CoM is on its way to stand: then that landing
+  /// is not counted, and Initialize begins right after it, with the weight going to the foot that
+  /// landed.
+  void start(std::size_t steps = unlimited);
+  /// One whole step more, then stand on both feet. From the second half of a swing on that is the
+  /// step after the next: by then the CoM goes too fast for the one under way.
   void stop();
+  /// After the last landing: takes a further step before it stands.
+  void step_again();
   /// Durations of the steps that begin from now on [s].
   void set_times(const StepTimes& times) { nominal_ = times; }
   /// Which foot stands first; only while idle.
   void set_support_side(Side side) { support_ = side; }
 
   /// Looks whether the present state ends now. At most one transition a call: call again until it
-  /// says none (a double support of no duration is entered and left within one tick).
+  /// says none (a double support of no duration is entered and left within one tick), but no more
+  /// than most_transitions times.
   Transition advance(const StateInputs& inputs);
   /// Lets one control period pass.
   void pass(double dt) { time_ += dt; }
@@ -42,6 +51,7 @@ class StateMachine {
   void set_t_ss(double t_ss) { t_ss_ = t_ss > time_ ? t_ss : time_; }
 
   Side support_side() const { return support_; }
+  /// t of eq. (1); in idle and Initialize since these began [s].
   double time() const { return time_; }
   double t_ss() const { return t_ss_; }
   double t_ds() const { return t_ds_; }
@@ -50,6 +60,10 @@ class StateMachine {
   double double_support_left() const { return t_ss_ + t_ds_ - time_; }
   std::uint64_t landings() const { return landings_; }
   bool walking() const { return steps_left_ > 0; }
+  /// This double support takes the weight to the middle, to stand.
+  bool closing() const { return closing_; }
+  /// The single support under way ends in standing.
+  bool last_step() const { return state_ == WalkingState::single_support && steps_left_ == 1; }
   /// Steps still to be landed, the one under way included; never more than preview_steps.
   std::size_t steps_ahead() const;
   /// The last of steps_ahead() (or the double support under way) ends in standing.
@@ -57,6 +71,7 @@ class StateMachine {
 
  private:
   void enter_single_support();
+  Transition begin_shift();
 
   StepTimes nominal_;
   double t_init_;
@@ -66,8 +81,10 @@ class StateMachine {
   double time_ = 0.0;
   double t_ss_;
   double t_ds_;
+  bool closing_ = false;
   std::uint64_t landings_ = 0;
   std::size_t steps_left_ = 0;  ///< landings until standing
+  std::size_t steps_then_ = 0;  ///< of a new walk that begins with the next landing
 };
 
 }  // namespace stagger::engine

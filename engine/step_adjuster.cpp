@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/step_limits.h"
+
 namespace stagger::engine {
 
 CatchingLine catching_line(const StepSituation& s) {
@@ -32,7 +34,8 @@ StepAdjustment adjust_step(const StepSituation& situation, double time_left, dou
   result.adjusted = result.error.norm() > parameters.step_margin;
   if (result.adjusted) {
     const Vec2 wanted = situation.planned.position + parameters.step_gain * result.error;  // (11')
-    result.step.position = reach.clamp(situation.stance, wanted);
+    result.step.position = wanted;
+    result.step = nearest_step(situation.stance, result.step, reach, parameters);
   }
   return result;
 }

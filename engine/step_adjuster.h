@@ -39,8 +39,8 @@ struct StepAdjustment {
   bool adjusted = false;      ///< error beyond the compliance margin
 };
 
-/// (10'), (11'): f_{i+1} + k_sa Delta_f, always from the plan (nothing accumulates), clamped to
-/// what the leg reaches. `time_left` until touchdown [s].
+/// (10'), (11'): f_{i+1} + k_sa Delta_f, always from the plan (nothing accumulates), moved to the
+/// nearest step within the limits. `time_left` until touchdown [s].
 StepAdjustment adjust_step(const StepSituation& situation, double time_left, double omega,
                            const ReachRegion& reach, const Parameters& parameters);
 

@@ -11,8 +11,9 @@ struct StepTimes {
   double step() const { return t_ss + t_ds; }
 };
 
-/// The parameters' durations as long as the steps stay comfortably short; a faster walk takes
-/// quicker steps, down to least_t_ss, before it takes longer ones.
+/// The parameters' durations as long as the steps stay comfortably short, forwards, sideways and in
+/// their turn; a faster walk takes quicker steps, down to least_t_ss, before it takes longer ones.
+/// Double support keeps its duration. The command has to be finite.
 StepTimes step_times(const WalkCommand& command, const Parameters& parameters);
 
 }  // namespace stagger::engine

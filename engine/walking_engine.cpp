@@ -3,24 +3,71 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
-
-#include "engine/footstep_planner.h"
+#include <sstream>
+#include <stdexcept>
 
 namespace stagger::engine {
 namespace {
+
+/// Steps that may follow the last one of a walk because the feet do not stand side by side.
+constexpr int most_corrections = 2;
 
 Footstep footstep(const FootPose& pose, Side side) {
   return {pose.position.head<2>(), pose.yaw, side};
 }
 
+/// Written so that a NaN is none.
+bool plausible(double value) {
+  constexpr double most = 1e6;
+  return std::abs(value) <= most;
+}
+bool plausible(const Vec3& v) { return plausible(v.x()) && plausible(v.y()) && plausible(v.z()); }
+bool plausible(const FootPose& pose) { return plausible(pose.position) && plausible(pose.yaw); }
+
+const Parameters& valid(const Parameters& parameters) {
+  validate(parameters);
+  return parameters;
+}
+
+Lqg make_lqg(const Parameters& p) {
+  try {
+    return Lqg(p);
+  } catch (const std::invalid_argument& error) {
+    const Vec3& q = p.lqr_state_weight;
+    std::ostringstream text;
+    text << "engine parameters lqr_state_weight = (" << q[0] << ", " << q[1] << ", " << q[2]
+         << "), lqr_zmp_weight = " << p.lqr_zmp_weight
+         << " give no controller that keeps the balance; the weight of the integral (third) has to "
+            "be greater than 0 and not small beyond reason against the others, and so has that of "
+            "the DCM (second) or of the CoM (first): "
+         << error.what();
+    throw std::invalid_argument(text.str());
+  }
+}
+
+WalkingEngine::StepListError list_error(StepFault fault) {
+  using Error = WalkingEngine::StepListError;
+  switch (fault) {
+    case StepFault::none:
+      break;
+    case StepFault::out_of_reach:
+      return Error::out_of_reach;
+    case StepFault::turns_too_far:
+      return Error::turns_too_far;
+    case StepFault::soles_too_near:
+      return Error::soles_too_near;
+  }
+  return Error::none;
+}
+
 }  // namespace
 
 WalkingEngine::WalkingEngine(const Parameters& parameters, const Measurement& start, Layout)
-    : WalkingEngine(parameters, start, ReachRegion(parameters)) {}
+    : WalkingEngine(parameters, start, ReachRegion(valid(parameters))) {}
 
 WalkingEngine::WalkingEngine(const Parameters& parameters, const Measurement& start,
                              const ReachRegion& reach, Layout)
-    : parameters_(parameters),
+    : parameters_(valid(parameters)),
       omega_(natural_frequency(parameters)),
       sole_{parameters.foot_half_length - parameters.sole_margin,
             parameters.foot_half_width - parameters.sole_margin},
@@ -28,32 +75,54 @@ WalkingEngine::WalkingEngine(const Parameters& parameters, const Measurement& st
       time_reach_(reach.scaled_length(parameters.time_reach)),
       capture_(parameters, reach),
       machine_(parameters),
-      lqg_(parameters),
+      lqg_(make_lqg(parameters)),
       hip_(parameters.hip, parameters.mass * parameters.gravity, omega_, parameters.tick),
-      times_(step_times({}, parameters)),
+      pattern_(step_pattern({}, reach, parameters)),
+      coming_{pattern_, pattern_},
+      measured_(start),
       standing_(start.feet) {
+  if (!plausible(start.com) || !plausible(start.com_velocity) || !plausible(start.feet[0]) ||
+      !plausible(start.feet[1])) {
+    throw std::invalid_argument("the first measurement is not finite");
+  }
   stance_ = footstep(start.feet[index(Side::left)], Side::left);
   landed_ = footstep(start.feet[index(Side::right)], Side::right);
   planned_ = landed_;
   swing_goal_ = landed_;
-  com_reference_ = middle();
   polygon_ = engine::support_polygon(sole_, start.feet[0], start.feet[1]);
+  // It is to stand in the middle; if it does not, beyond what the noise of one measurement
+  // explains, it is taken there smoothly.
+  const Vec2 com = start.com.head<2>();
+  const Vec2 dcm = com + start.com_velocity.head<2>() / omega_;
+  const double doubt = 3.0 * std::sqrt(parameters_.measurement_noise);
+  const bool off = std::max((com - middle()).norm(), (dcm - middle()).norm()) > doubt;
+  com_reference_ = off ? com : middle();
+  begin_rest(off ? dcm : middle());
+}
+
+void WalkingEngine::set_pattern(const WalkCommand& command, std::size_t kept) {
+  pattern_ = step_pattern(command, reach_, parameters_);
+  for (std::size_t i = kept; i < coming_.size(); ++i) coming_[i] = pattern_;
+  machine_.set_times(coming_[0].times);
+  list_size_ = std::min(list_size_, list_next_ + kept);
 }
 
 void WalkingEngine::walk(const WalkCommand& command) {
-  command_ = command;
-  times_ = step_times(command, parameters_);
-  machine_.set_times(times_);
+  const WalkingState state = machine_.state();
+  std::size_t kept = state == WalkingState::single_support && !machine_.last_step() ? 2 : 1;
+  if (state == WalkingState::idle || !machine_.walking()) kept = 0;
+  set_pattern(command, kept);
+  corrections_left_ = 0;
   machine_.start();
-  list_size_ = list_next_ = 0;
 }
 
 void WalkingEngine::stop() {
-  command_ = WalkCommand();
-  times_ = step_times(command_, parameters_);
-  machine_.set_times(times_);
   machine_.stop();
-  list_size_ = list_next_ = 0;
+  // The last step closes the feet, unless it is under way already.
+  const std::size_t under_way = machine_.state() == WalkingState::single_support ? 1 : 0;
+  const std::size_t ahead = machine_.steps_ahead();
+  set_pattern({}, std::max(under_way, ahead > 0 ? ahead - 1 : 0));
+  corrections_left_ = most_corrections;
 }
 
 WalkingEngine::StepListError WalkingEngine::follow(std::span<const Footstep> steps) {
@@ -64,17 +133,15 @@ WalkingEngine::StepListError WalkingEngine::follow(std::span<const Footstep> ste
   Footstep from = stance_.side == steps[0].side ? landed_ : stance_;
   for (const Footstep& step : steps) {
     if (step.side == from.side) return StepListError::wrong_side;
-    if ((reach_.clamp(from, step.position) - step.position).norm() > 1e-9) {
-      return StepListError::out_of_reach;
-    }
+    const StepFault fault = check_step(from, step, reach_, parameters_);
+    if (fault != StepFault::none) return list_error(fault);
     from = step;
   }
+  set_pattern({}, 0);
+  corrections_left_ = 0;
   std::copy(steps.begin(), steps.end(), list_.begin());
   list_size_ = steps.size();
   list_next_ = 0;
-  command_ = WalkCommand();
-  times_ = step_times(command_, parameters_);
-  machine_.set_times(times_);
   machine_.set_support_side(other(steps[0].side));
   machine_.start(steps.size());
   return StepListError::none;
@@ -88,17 +155,36 @@ FootPose WalkingEngine::landing_pose(const Footstep& step) const {
   return {Vec3(step.position.x(), step.position.y(), ground), step.yaw};
 }
 
+bool WalkingEngine::take(const Measurement& measurement) {
+  for (std::size_t foot = 0; foot < 2; ++foot) {
+    if (plausible(measurement.feet[foot])) measured_.feet[foot] = measurement.feet[foot];
+    const double load = measurement.foot_load[foot];
+    if (plausible(load)) measured_.foot_load[foot] = load;
+  }
+  const bool seen = plausible(measurement.com) && plausible(measurement.com_velocity);
+  if (seen) {
+    measured_.com = measurement.com;
+    measured_.com_velocity = measurement.com_velocity;
+  }
+  return seen;
+}
+
 const WalkingTargets& WalkingEngine::update(const Measurement& measurement) {
-  const Vec2 com = measurement.com.head<2>();
-  lqg_.estimate(com, com + measurement.com_velocity.head<2>() / omega_);
+  // Never seen yet, or not for so long that the prediction has run away: then the last one known.
+  const bool lost = !estimating_ || !plausible(lqg_.dcm().norm());
+  if (take(measurement) || lost) {
+    const Vec2 com = measured_.com.head<2>();
+    lqg_.estimate(com, com + measured_.com_velocity.head<2>() / omega_);
+    estimating_ = true;
+  }
 
   const Side swing_side = other(machine_.support_side());
   StateInputs inputs;
-  inputs.swing_foot_loaded = measurement.foot_load[index(swing_side)] > parameters_.contact_load;
-  while (true) {
+  inputs.swing_foot_loaded = measured_.foot_load[index(swing_side)] > parameters_.contact_load;
+  for (int i = 0; i < StateMachine::most_transitions; ++i) {
     const Transition transition = machine_.advance(inputs);
     if (transition == Transition::none) break;
-    react(transition, measurement);
+    react(transition);
   }
 
   const bool single = machine_.state() == WalkingState::single_support;
@@ -107,11 +193,11 @@ const WalkingTargets& WalkingEngine::update(const Measurement& measurement) {
   plan_reference();
   adjusting_ = false;
   if (single) {
-    polygon_ = engine::support_polygon(sole_, measurement.feet[index(stance_.side)]);
+    polygon_ = engine::support_polygon(sole_, measured_.feet[index(stance_.side)]);
     adjust();
     move_swing_foot();
   } else {
-    polygon_ = engine::support_polygon(sole_, measurement.feet[0], measurement.feet[1]);
+    polygon_ = engine::support_polygon(sole_, measured_.feet[0], measured_.feet[1]);
   }
   use_hip();
 
@@ -124,20 +210,20 @@ const WalkingTargets& WalkingEngine::update(const Measurement& measurement) {
   return targets_;
 }
 
-void WalkingEngine::react(Transition transition, const Measurement& measurement) {
-  const auto measured = [&](Side side) { return footstep(measurement.feet[index(side)], side); };
+void WalkingEngine::react(Transition transition) {
+  const auto measured = [&](Side side) { return footstep(measured_.feet[index(side)], side); };
   switch (transition) {
     case Transition::none:
       break;
     case Transition::begin_shift:
-      standing_ = measurement.feet;
+      standing_ = measured_.feet;
       stance_ = measured(machine_.support_side());
       landed_ = measured(other(stance_.side));
       begin_shift();
       break;
     case Transition::lift_off:
       stance_ = measured(machine_.support_side());
-      standing_ = measurement.feet;
+      standing_ = measured_.feet;
       nominal_t_ss_ = machine_.t_ss();
       plan_steps(stance_, 0);
       swing_goal_ = steps_[0];
@@ -146,13 +232,20 @@ void WalkingEngine::react(Transition transition, const Measurement& measurement)
       break;
     case Transition::landing:
       landed_ = measured(other(machine_.support_side()));
-      standing_[index(landed_.side)] = measurement.feet[index(landed_.side)];
+      standing_[index(landed_.side)] = measured_.feet[index(landed_.side)];
       if (list_next_ < list_size_) ++list_next_;
+      if (machine_.closing() && corrections_left_ > 0 && !stands_side_by_side()) {
+        --corrections_left_;
+        machine_.step_again();
+      }
+      coming_ = {coming_[1], pattern_};
+      machine_.set_times(coming_[0].times);
       break;
     case Transition::stand:
       stance_ = measured(machine_.support_side());
       landed_ = measured(other(stance_.side));
-      standing_ = measurement.feet;
+      standing_ = measured_.feet;
+      begin_rest(plan_.dcm_after(parameters_.tick, omega_));  // from where the reference was going
       break;
   }
 }
@@ -167,8 +260,17 @@ void WalkingEngine::begin_shift() {
   com_reference_ = lqg_.com();
 }
 
-Footstep WalkingEngine::step_after(const Footstep& stance) const {
-  return next_footstep(stance, command_, times_.step(), parameters_.stance_width, reach_);
+bool WalkingEngine::stands_side_by_side() const {
+  // More than a body misses its footholds by.
+  constexpr double most_distance = 0.02;  // [m]
+  constexpr double most_turn = 0.1;       // [rad]
+  const Footstep wanted = next_footstep(stance_, pattern_);
+  return (landed_.position - wanted.position).norm() < most_distance &&
+         std::abs(std::remainder(landed_.yaw - wanted.yaw, 2.0 * std::numbers::pi)) < most_turn;
+}
+
+void WalkingEngine::begin_rest(const Vec2& dcm) {
+  initial_zmp_ = initial_zmp(dcm, middle(), middle(), parameters_.t_init, omega_);
 }
 
 void WalkingEngine::plan_steps(const Footstep& first_stance, std::size_t first) {
@@ -176,7 +278,7 @@ void WalkingEngine::plan_steps(const Footstep& first_stance, std::size_t first) 
   Footstep from = first_stance;
   for (std::size_t i = first; i < step_count_; ++i) {
     const std::size_t listed = list_next_ + i;
-    steps_[i] = listed < list_size_ ? list_[listed] : step_after(from);
+    steps_[i] = listed < list_size_ ? list_[listed] : next_footstep(from, pattern(i));
     from = steps_[i];
   }
 }
@@ -184,6 +286,9 @@ void WalkingEngine::plan_steps(const Footstep& first_stance, std::size_t first) 
 void WalkingEngine::plan_reference() {
   plan_.clear();
   if (machine_.state() == WalkingState::idle) {
+    const double left = std::max(parameters_.t_init - machine_.time(), 0.0);
+    const Vec2 way = middle() - initial_zmp_;
+    plan_.add({left, middle() - left / parameters_.t_init * way, middle()});
     plan_.add({parameters_.tick, middle(), middle()});
     plan_.solve(middle(), omega_);
     return;
@@ -195,7 +300,7 @@ void WalkingEngine::plan_reference() {
     const double share = machine_.time() / parameters_.t_init;
     const Vec2 now = initial_zmp_ + share * (stance_.position - initial_zmp_);
     plan_.add({parameters_.t_init - machine_.time(), now, stance_.position});
-    plan_.add({times_.t_ss, stance_.position, stance_.position});
+    plan_.add({pattern(0).times.t_ss, stance_.position, stance_.position});
   } else if (machine_.state() == WalkingState::single_support) {
     plan_.add({machine_.single_support_left(), stance_.position, stance_.position});
   } else {
@@ -208,7 +313,7 @@ void WalkingEngine::plan_reference() {
       plan_.solve(goal, omega_);
       return;
     }
-    plan_.add({times_.t_ss, landed_.position, landed_.position});
+    plan_.add({pattern(0).times.t_ss, landed_.position, landed_.position});
     from = landed_;
   }
 
@@ -221,16 +326,16 @@ void WalkingEngine::plan_reference() {
       plan_.solve(goal, omega_);
       return;
     }
-    plan_.add({times_.t_ds, from.position, to.position});
-    if (!last) plan_.add({times_.t_ss, to.position, to.position});
+    plan_.add({pattern(i).times.t_ds, from.position, to.position});
+    if (!last) plan_.add({pattern(i + 1).times.t_ss, to.position, to.position});
     from = to;
   }
   // Beyond the preview the gait is taken to go on for ever as it is.
-  const Footstep next = step_after(from);
-  const Footstep after = step_after(next);
+  const Footstep next = next_footstep(from, pattern_);
+  const Footstep after = next_footstep(next, pattern_);
   plan_.solve(from.position + periodic_dcm_offset(next.position - from.position,
-                                                  after.position - next.position, times_.t_ss,
-                                                  times_.t_ds, omega_),
+                                                  after.position - next.position,
+                                                  pattern_.times.t_ss, pattern_.times.t_ds, omega_),
               omega_);
 }
 
@@ -239,6 +344,7 @@ StepSituation WalkingEngine::situation(const Footstep& next) const {
 }
 
 void WalkingEngine::adjust() {
+  const double planned_t_ss = machine_.t_ss();
   if (machine_.single_support_left() <= parameters_.step_freeze) {
     steps_[0] = swing_goal_;
   } else {
@@ -253,6 +359,9 @@ void WalkingEngine::adjust() {
     }
   }
   // The plan has to be of the step that is really taken: then the reference meets the DCM.
+  const bool as_planned = steps_[0].position == planned_.position &&
+                          steps_[0].yaw == planned_.yaw && machine_.t_ss() == planned_t_ss;
+  if (as_planned) return;
   plan_steps(steps_[0], 1);
   plan_reference();
 }

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "engine/capture_region.h"
+#include "engine/footstep_planner.h"
 #include "engine/hip_strategy.h"
 #include "engine/lqg.h"
 #include "engine/measurement.h"
@@ -32,32 +33,41 @@ class WalkingEngine {
   /// Why a list of steps was not taken.
   enum class StepListError : std::uint8_t {
     none,
-    walking,       ///< a list starts from standing
-    too_long,      ///< more than max_listed_steps
-    wrong_side,    ///< the sides do not alternate
-    out_of_reach,  ///< a step that the leg cannot take from the one before
+    walking,         ///< a list starts from standing
+    too_long,        ///< more than max_listed_steps
+    wrong_side,      ///< the sides do not alternate
+    out_of_reach,    ///< a step that the leg cannot take from the one before
+    turns_too_far,   ///< a step turned by more than max_step_turn against the one before
+    soles_too_near,  ///< a step that overlaps the one before or is within foot_clearance of it
   };
   static constexpr std::size_t max_listed_steps = 64;
 
-  /// Stands on the feet of `start`. Throws std::invalid_argument when the parameters have no
-  /// stabilising controller.
+  /// Stands on the feet of `start`. Throws std::invalid_argument when the parameters are not valid
+  /// (see validate()) or have no stabilising controller, and when `start` is not usable.
   WalkingEngine(const Parameters& parameters, const Measurement& start, Layout layout = {});
   /// The same with a region of footholds of one's own, e.g. from the leg's kinematics.
   WalkingEngine(const Parameters& parameters, const Measurement& start, const ReachRegion& reach,
                 Layout layout = {});
 
-  /// Starts walking or changes the velocity in mid-walk; the step under way lands as planned.
+  /// Starts walking or changes the velocity, cut to the limits as step_pattern() tells. In mid-walk
+  /// the step under way and the one after it are taken as planned: the CoM is already on its way to
+  /// them, and would have to jump for others. In double support that is the step that comes next.
   void walk(const WalkCommand& command);
   /// Takes these steps, in world coordinates, and stands on the last two. Takes all or none.
   StepListError follow(std::span<const Footstep> steps);
-  /// Takes one more whole step and comes to rest on both feet.
+  /// Comes to rest on both feet, side by side: one more whole step; one more than that from the
+  /// second half of a swing on, and again when the last one had to be adjusted.
   void stop();
   void set_strategies(const Strategies& strategies) { parameters_.strategies = strategies; }
 
-  /// One control period.
+  /// One control period. A measurement that cannot be (a NaN, an infinity, anything beyond 1e6)
+  /// is not used: without CoM or its velocity the filter only predicts, and feet and loads count as
+  /// they were last seen.
   const WalkingTargets& update(const Measurement& measurement);
 
   const WalkingTargets& targets() const { return targets_; }
+  /// Velocity of the steps to come: the command of walk(), cut to the limits.
+  const WalkCommand& command() const { return pattern_.command; }
   const Parameters& parameters() const { return parameters_; }
   const ConvexPolygon& support_polygon() const { return polygon_; }
   const StateMachine& state_machine() const { return machine_; }
@@ -66,9 +76,15 @@ class WalkingEngine {
   const Lqg& lqg() const { return lqg_; }
 
  private:
-  void react(Transition transition, const Measurement& measurement);
+  bool take(const Measurement& measurement);
+  void react(Transition transition);
+  bool stands_side_by_side() const;
   void begin_shift();
-  Footstep step_after(const Footstep& stance) const;
+  /// From this DCM to one over the middle of the feet [m].
+  void begin_rest(const Vec2& dcm);
+  void set_pattern(const WalkCommand& command, std::size_t kept);
+  /// Pattern of the i-th landing from now.
+  const StepPattern& pattern(std::size_t i) const { return i < 2 ? coming_[i] : pattern_; }
   void plan_steps(const Footstep& first_stance, std::size_t first);
   void plan_reference();
   void adjust();
@@ -95,11 +111,16 @@ class WalkingEngine {
   Lqg lqg_;
   HipStrategy hip_;
   HipAid hip_aid_;
-  WalkCommand command_;
-  StepTimes times_;  ///< nominal, of the steps to come
+  StepPattern pattern_;                ///< of the present command
+  std::array<StepPattern, 2> coming_;  ///< of the next two landings, some still of an older one
   std::array<Footstep, max_listed_steps> list_;
   std::size_t list_size_ = 0;
   std::size_t list_next_ = 0;  ///< the step that is under way or comes next
+
+  Measurement measured_;  ///< the newest that was usable, part by part
+  bool estimating_ = false;
+
+  int corrections_left_ = 0;  ///< further steps that a walk may take to end side by side
 
   Footstep stance_;               ///< f_i; in double support the foot that the ZMP leaves
   Footstep landed_;               ///< in double support: f_{i+1}, where the foot really landed
@@ -115,7 +136,7 @@ class WalkingEngine {
   DcmPlan plan_;
   ConvexPolygon polygon_;
   Vec2 com_reference_ = Vec2::Zero();
-  Vec2 initial_zmp_ = Vec2::Zero();  ///< of Initialize
+  Vec2 initial_zmp_ = Vec2::Zero();  ///< of Initialize, and of the way back to the middle in idle
   WalkingTargets targets_;
 };
 

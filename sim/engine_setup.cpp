@@ -1,5 +1,7 @@
 #include "sim/engine_setup.h"
 
+#include <algorithm>
+
 namespace stagger::sim {
 
 engine::Parameters engine_parameters(const Robot& robot, PlantKind plant,
@@ -9,6 +11,7 @@ engine::Parameters engine_parameters(const Robot& robot, PlantKind plant,
   p.tick = tick;
   p.com_height = d.walk.com_height_m;
   p.t_ss = d.walk.t_ss_s;
+  p.least_t_ss = std::min(p.least_t_ss, p.t_ss);
   p.t_ds = d.walk.t_ds_s;
   p.t_init = d.walk.t_init_s;
   p.stance_width = d.walk.stance_width_m;

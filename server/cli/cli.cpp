@@ -4,6 +4,7 @@
 #include <exception>
 #include <functional>
 #include <iostream>
+#include <sstream>
 
 #include "server/cli/commands.h"
 
@@ -16,8 +17,9 @@ CLI::Validator between(double low, double high) {
       [low, high](std::string& text) -> std::string {
         double value = 0.0;
         if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return "";
-        return text + " is not a number from " + std::to_string(low) + " to " +
-               std::to_string(high);
+        std::ostringstream allowed;
+        allowed << text << " is not a number from " << low << " to " << high;
+        return allowed.str();
       },
       "FLOAT");
 }
@@ -83,6 +85,27 @@ int run_command_line(int argc, char** argv) {
   CLI::App* robots_app = app.add_subcommand("robots", "List the robots");
   robots_app->add_flag("--json", robots.json, "Print one JSON object");
 
+  PaperOptions paper;
+  CLI::App* paper_app =
+      app.add_subcommand("paper", "Repeat the paper's experiments, beside its numbers");
+  paper_app->add_option("section", paper.section, "One of them alone")
+      ->check(CLI::IsMember({"plan", "lqg", "scenario1", "scenario2", "robustness"}));
+  paper_app->add_flag("--json", paper.json, "Print one JSON object");
+  paper_app->add_option("--out", paper.out, "Folder to write report.html to");
+  paper_app->add_option("--seeds", paper.seeds, "Seeds of everything that is tried under noise")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  paper_app->add_option("--t-ss", paper.t_ss, "scenario2: single support [s]")
+      ->check(between(0.2, 3.0));
+  paper_app->add_option("--t-ds", paper.t_ds, "scenario2: double support [s]")
+      ->check(between(0.0, 1.0));
+  paper_app->add_option("--t-left", paper.t_left, "scenario2: single support left at the push [s]")
+      ->check(between(0.0, 3.0));
+  paper_app
+      ->add_option("--direction-deg", paper.direction_deg,
+                   "scenario2: of the push; 0 forward, 90 to the left")
+      ->check(between(-360.0, 360.0));
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -90,6 +113,7 @@ int run_command_line(int argc, char** argv) {
   }
 
   try {
+    if (paper_app->parsed()) return paper_command(paper);
     const Folders folders = find_folders(robots_folder, web_folder);
     if (serve_app->parsed()) return serve_command(serve, folders);
     if (run_app->parsed()) return run_command(run, folders);

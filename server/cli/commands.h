@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "engine/parameters.h"
@@ -39,6 +40,17 @@ struct RobotsOptions {
   bool json = false;
 };
 
+struct PaperOptions {
+  std::string section;  ///< "plan", "lqg", "scenario1", "scenario2", "robustness"; empty: all
+  bool json = false;
+  std::string out;  ///< folder of the report; empty: none
+  int seeds = 20;
+  std::optional<double> t_ss;           ///< [s]
+  std::optional<double> t_ds;           ///< [s]
+  std::optional<double> t_left;         ///< [s]
+  std::optional<double> direction_deg;  ///< 0 forward, 90 to the left
+};
+
 /// Serves the dashboard, the API and the stream until SIGTERM or SIGINT.
 int serve_command(const ServeOptions& options, const Folders& folders);
 /// Walks without a server, as fast as possible.
@@ -47,5 +59,7 @@ int run_command(const RunOptions& options, const Folders& folders);
 int trial_command(const TrialOptions& options, const Folders& folders);
 /// Lists the robots.
 int robots_command(const RobotsOptions& options, const Folders& folders);
+/// The paper's experiments beside what it publishes and beside the ceilings.
+int paper_command(const PaperOptions& options);
 
 }  // namespace stagger::server

@@ -1,5 +1,6 @@
 #include "sim/robot/biped_description.h"
 
+#include "engine/parameters.h"
 #include "sim/json_file.h"
 #include "sim/strict_json.h"
 
@@ -17,7 +18,8 @@ FootDescription read_foot(JsonReader& in) {
   return foot;
 }
 
-WalkDescription read_walk(JsonReader& in) {
+/// `sole_width`: of each foot [m].
+WalkDescription read_walk(JsonReader& in, double sole_width) {
   WalkDescription walk;
   walk.com_height_m = in.number("com_height_m", Range::between(0.05, 3.0, "m"));
   walk.stance_width_m = in.number("stance_width_m", Range::between(0.02, 1.0, "m"));
@@ -28,6 +30,10 @@ WalkDescription read_walk(JsonReader& in) {
   walk.max_step_length_m = in.number("max_step_length_m", Range::between(0.01, 2.0, "m"));
   walk.min_step_width_m = in.number("min_step_width_m", Range::between(0.0, 1.0, "m"));
   walk.max_step_width_m = in.number("max_step_width_m", Range::between(0.02, 2.0, "m"));
+  if (walk.min_step_width_m < sole_width + engine::Parameters().foot_clearance) {
+    in.refuse("min_step_width_m",
+              "leaves no gap between the soles; allowed: at least the sole's width and 0.01 m");
+  }
   if (walk.min_step_width_m > walk.stance_width_m) {
     in.refuse("min_step_width_m", "is greater than stance_width_m; allowed: at most that");
   }
@@ -50,7 +56,8 @@ BipedDescription read_biped_description(JsonReader& in) {
     feet.object("right", [&](JsonReader& foot) { biped.feet[1] = read_foot(foot); });
   });
   biped.nominal_pose = in.numbers("nominal_pose", Range::between(-6.3, 6.3, "rad"));
-  in.object("walk", [&](JsonReader& walk) { biped.walk = read_walk(walk); });
+  in.object("walk",
+            [&](JsonReader& walk) { biped.walk = read_walk(walk, biped.feet[0].sole.width); });
   return biped;
 }
 

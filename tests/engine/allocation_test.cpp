@@ -124,7 +124,7 @@ TEST(CallCounts, SeeThrowsAndLocks) {
   EXPECT_EQ(calls_of([&] { const std::lock_guard lock(mutex); }).locks, 1U);
 }
 
-/// Walks and is pushed for twelve seconds, stops, takes a list of steps, stands, and begins anew:
+/// Walks and is pushed for ten seconds, stops, takes a list of steps, stands, and begins anew:
 /// whatever the door of the engine offers, with noise on what is measured.
 class Everything {
  public:
@@ -186,19 +186,20 @@ class Everything {
       engine_.stop();
     } else if (time == 9200) {  // before it has come to rest
       engine_.walk(commands_[0]);
-    } else if (time == 12000) {
+    } else if (time == 10500) {
       engine_.stop();
-    } else if (time == 14500) {
+    } else if (time == 15000) {
       follow();
     }
   }
 
   void follow() {
-    const Parameters& p = engine_.parameters();
     std::array<Footstep, 5> steps;
+    const StepPattern pattern =
+        step_pattern({0.1, 0.0, 0.1}, engine_.reach(), engine_.parameters());
     Footstep from{measurement_.feet[0].position.head<2>(), measurement_.feet[0].yaw, Side::left};
     for (Footstep& step : steps) {
-      step = next_footstep(from, {0.1, 0.0, 0.1}, p.t_ss + p.t_ds, p.stance_width, engine_.reach());
+      step = next_footstep(from, pattern);
       from = step;
     }
     Footstep far = steps[0];

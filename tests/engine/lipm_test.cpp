@@ -29,6 +29,8 @@ TEST(Lipm, SegmentOfNoDurationIsAStep) {
   EXPECT_EQ(dcm_before(segment, dcm, 0.0, omega), dcm);
   EXPECT_EQ(segment.velocity(), Vec2::Zero());
   EXPECT_EQ(segment.zmp(0.0), Vec2(0.0, -0.1));
+  const Vec2 com(0.01, -0.02);
+  EXPECT_LT((com_after(segment, com, dcm, 0.0, omega) - com).norm(), 1e-15);
 }
 
 TEST(Lipm, TransferFactorIsContinuousAtZero) {

@@ -101,6 +101,49 @@ TEST(StateMachine, StopsAfterOneWholeStepMore) {
   EXPECT_EQ(machine.landings(), 2U);
 }
 
+TEST(StateMachine, LateInASwingAStopTakesOneStepMore) {
+  const Parameters parameters;
+  StateMachine machine(parameters);
+  machine.start();
+  run(machine, parameters.t_init + 0.6 * parameters.t_ss);
+  machine.stop();
+  EXPECT_EQ(machine.steps_ahead(), 3U);
+  machine.stop();  // to say it twice changes nothing
+  EXPECT_EQ(machine.steps_ahead(), 3U);
+  run(machine, 4.0);
+  EXPECT_EQ(machine.landings(), 3U);
+  EXPECT_EQ(machine.state(), WalkingState::idle);
+}
+
+TEST(StateMachine, AStartInTheLastStepShiftsTheWeightAfterItsLanding) {
+  const Parameters parameters;
+  for (const double later : {0.3, 0.8 + 0.5}) {  // before that landing, and while it closes
+    StateMachine machine(parameters);
+    machine.start(1);
+    run(machine, parameters.t_init + later);
+    machine.start(2);
+    run(machine, std::max(0.8 - later, 0.0) + 0.01);
+    EXPECT_EQ(machine.state(), WalkingState::initialize) << later;
+    EXPECT_EQ(machine.support_side(), Side::right) << later;
+    run(machine, parameters.t_init + 3.5);
+    EXPECT_EQ(machine.landings(), 3U) << later;
+    EXPECT_EQ(machine.state(), WalkingState::idle) << later;
+  }
+}
+
+TEST(StateMachine, AFurtherStepCanFollowTheLast) {
+  const Parameters parameters;
+  StateMachine machine(parameters);
+  machine.start(1);
+  run(machine, parameters.t_init + parameters.t_ss + 0.05);
+  ASSERT_TRUE(machine.closing());
+  machine.step_again();
+  EXPECT_FALSE(machine.closing());
+  run(machine, parameters.t_ds + parameters.t_ss + parameters.t_init + 0.1);
+  EXPECT_EQ(machine.landings(), 2U);
+  EXPECT_EQ(machine.state(), WalkingState::idle);
+}
+
 TEST(StateMachine, StopDuringTheWeightShiftStandsAtOnce) {
   StateMachine machine{Parameters()};
   machine.start();

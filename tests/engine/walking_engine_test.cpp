@@ -1,82 +1,15 @@
 // The whole engine on a point mass that this test integrates on its own.
-#include "engine/walking_engine.h"
-
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "tests/engine/integrate.h"
+#include "tests/engine/point_mass_walk.h"
 
 namespace stagger::engine {
 namespace {
 
-Parameters quick() {
-  Parameters p;
-  p.tick = 0.001;
-  p.t_ss = 0.4;
-  p.t_ds = 0.1;
-  p.t_init = 0.6;
-  p.measurement_noise = 1e-8;
-  p.step_margin = 0.01;
-  return p;
-}
-
-class Walk {
- public:
-  explicit Walk(const Parameters& parameters = quick())
-      : parameters_(parameters),
-        omega_(natural_frequency(parameters)),
-        engine_(parameters, start()) {}
-
-  void run(double seconds) {
-    const int ticks = static_cast<int>(std::lround(seconds / parameters_.tick));
-    for (int i = 0; i < ticks; ++i) tick();
-  }
-  void push(const Vec2& velocity) { mass_.velocity += velocity; }
-
-  WalkingEngine& engine() { return engine_; }
-  Vec2 dcm() const { return mass_.dcm(omega_); }
-  Vec2 com() const { return mass_.com; }
-  Vec2 velocity() const { return mass_.velocity; }
-  double worst_error() const { return worst_error_; }
-  double worst_velocity_jump() const { return worst_velocity_jump_; }
-  const Measurement& measurement() const { return measurement_; }
-  void forget() { worst_error_ = 0.0; }
-
- private:
-  Measurement start() {
-    measurement_.com = {0.0, 0.0, parameters_.com_height};
-    measurement_.feet[0].position = {0.0, 0.5 * parameters_.stance_width, 0.0};
-    measurement_.feet[1].position = {0.0, -0.5 * parameters_.stance_width, 0.0};
-    return measurement_;
-  }
-
-  void tick() {
-    measurement_.com.head<2>() = mass_.com;
-    measurement_.com_velocity.head<2>() = mass_.velocity;
-    const WalkingTargets& t = engine_.update(measurement_);
-    worst_error_ = std::max(worst_error_, (dcm() - t.dcm_reference).norm());
-    const Vec2 jump = t.com_velocity_reference - last_velocity_;
-    worst_velocity_jump_ = std::max(worst_velocity_jump_, jump.norm());
-    last_velocity_ = t.com_velocity_reference;
-    const Vec2 zmp = t.zmp_command;
-    mass_ = testing::integrate(
-        mass_, [&](double) { return zmp; }, parameters_.tick, omega_, 1);
-    for (std::size_t i = 0; i < 2; ++i) {
-      if (!t.feet[i].in_contact) measurement_.feet[i] = {t.feet[i].position, t.feet[i].yaw};
-      measurement_.foot_load[i] = measurement_.feet[i].position.z() <= 0.0 ? 150.0 : 0.0;
-    }
-  }
-
-  Parameters parameters_;
-  double omega_;
-  Measurement measurement_;
-  WalkingEngine engine_;
-  testing::PointMass mass_;
-  Vec2 last_velocity_ = Vec2::Zero();
-  double worst_error_ = 0.0;
-  double worst_velocity_jump_ = 0.0;
-};
+using testing::quick;
+using testing::Walk;
 
 TEST(WalkingEngine, StandsStill) {
   Walk walk;
@@ -294,10 +227,48 @@ TEST(WalkingEngine, RefusesListsThatItCannotWalk) {
   const Footstep far{{5.0, 0.1}, 0.0, Side::left};
   EXPECT_EQ(walk.engine().follow(std::array{right, right}), Error::wrong_side);
   EXPECT_EQ(walk.engine().follow(std::array{right, far}), Error::out_of_reach);
+  const Footstep turned{{0.0, -0.2}, -0.7, Side::right};
+  EXPECT_EQ(walk.engine().follow(std::array{turned}), Error::turns_too_far);
+  const Footstep toe_to_toe{{0.0, 0.0}, 0.5, Side::right};
+  EXPECT_EQ(walk.engine().follow(std::array{toe_to_toe}), Error::soles_too_near);
+  const Footstep nowhere{{std::nan(""), -0.1}, 0.0, Side::right};
+  EXPECT_EQ(walk.engine().follow(std::array{nowhere}), Error::out_of_reach);
   EXPECT_EQ(walk.engine().follow(std::vector<Footstep>(65, right)), Error::too_long);
   walk.engine().walk({});
   walk.run(1.0);
   EXPECT_EQ(walk.engine().follow(std::array{right}), Error::walking);
+}
+
+TEST(WalkingEngine, AdjustedStepsKeepTheFeetApartInATurnToo) {
+  Parameters parameters = quick();
+  parameters.foot_half_length = 0.12;  // long feet: toes meet at the least width
+  for (int direction = 0; direction < 360; direction += 30) {
+    Walk walk(parameters);
+    walk.engine().walk({0.1, 0.0, 0.6});
+    walk.run(4.0);
+    const double angle = direction * M_PI / 180.0;
+    walk.push(0.3 * Vec2(std::cos(angle), std::sin(angle)));
+    for (int i = 0; i < 2000; ++i) {
+      walk.run(0.001);
+      const WalkingTargets& t = walk.engine().targets();
+      if (t.state != WalkingState::single_support) continue;
+      const FootTarget& foot = t.feet[index(t.support_side)];
+      const Footstep stance{foot.position.head<2>(), foot.yaw, t.support_side};
+      ASSERT_EQ(check_step(stance, t.adjusted_step, walk.engine().reach(), parameters),
+                StepFault::none)
+          << direction << " deg, tick " << i;
+    }
+  }
+}
+
+TEST(WalkingEngine, TellsTheCommandThatItWalks) {
+  Walk walk;
+  walk.engine().walk({0.2, 0.05, 0.1});
+  EXPECT_EQ(walk.engine().command().vx, 0.2);
+  walk.engine().walk({9.0, 0.0, 0.0});
+  EXPECT_NEAR(walk.engine().command().vx, quick().max_step_length / (0.15 + quick().t_ds), 1e-6);
+  walk.engine().stop();
+  EXPECT_EQ(walk.engine().command().vx, 0.0);
 }
 
 }  // namespace

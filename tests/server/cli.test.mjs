@@ -17,7 +17,7 @@ test('--version and --help', async () => {
   assert.match(version.stdout, /^\d+\.\d+\.\d+\n$/);
   const help = await command(['--help']);
   assert.equal(help.code, 0);
-  for (const name of ['serve', 'run', 'trial', 'robots']) assert.match(help.stdout, RegExp(name));
+  for (const name of ['serve', 'run', 'trial', 'robots', 'paper']) assert.match(help.stdout, RegExp(name));
 });
 
 test('bad options end with 2', async () => {

@@ -74,7 +74,7 @@ TEST(CaptureSet, HoldsEveryWayIntoItselfWhenTheTimeMattersToo) {
   EXPECT_LT(set.margin(Side::left, Vec2::Zero()), 0.0);
   std::mt19937_64 random(2);
   const auto share = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-  const CaptureSet::Polygon& landed = set.polygon(Side::right);
+  const engine::ConvexSet& landed = set.polygon(Side::right);
   for (int i = 0; i < 1000; ++i) {
     const Vec2 step(0.1 * (2.0 * share() - 1.0), -0.25 - 0.05 * share());
     const double part = share();

@@ -153,6 +153,12 @@ TEST(LoadRobot, RefusesNumbersOutOfRange) {
   EXPECT_THAT(error, HasSubstr("/colour is no field here"));
 }
 
+TEST(LoadRobot, RefusesAStepWidthThatLeavesNoGapBetweenTheSoles) {
+  ChangedRobot robot;
+  robot.description["walk"]["min_step_width_m"] = 0.08;
+  EXPECT_THAT(robot.error(), HasSubstr("/walk/min_step_width_m leaves no gap between the soles"));
+}
+
 TEST(LoadRobot, RefusesAPoseThatCannotBeStoodIn) {
   ChangedRobot robot;
   robot.description["nominal_pose"]["left_knee"] = 3.0;

@@ -124,8 +124,8 @@ PlanResult run_plan() {
   double velocity_before = 0.0;
   for (std::size_t k = 0; k <= segments.size(); ++k) {
     const Vec2 dcm = k == 0 ? plan.dcm() : plan.dcm_at_end(k - 1);
-    result.nodes.push_back({time, com.x(), dcm.x()});
     const double node = independent(static_cast<Eigen::Index>(k));
+    result.nodes.push_back({time, com.x(), dcm.x(), node});
     result.max_node_error = std::max(result.max_node_error, std::abs(com.x() - node));
     if (k == segments.size()) break;
     const engine::ZmpSegment& s = segments[k];

@@ -8,9 +8,10 @@
 namespace stagger::sim {
 
 struct PlanNode {
-  double time = 0.0;  ///< [s]
-  double com = 0.0;   ///< one axis, both are equal [m]
-  double dcm = 0.0;   ///< [m]
+  double time = 0.0;             ///< [s]
+  double com = 0.0;              ///< one axis, both are equal [m]
+  double dcm = 0.0;              ///< [m]
+  double independent_com = 0.0;  ///< of the boundary value problem, solved as a linear system [m]
 };
 
 struct SwingSample {

@@ -80,7 +80,10 @@ SteppingOutcome run_stepping(const SteppingSetup& setup, double force, Trace* tr
       const bool due = targets.state == WalkingState::single_support &&
                        targets.step_count == steps_before_push &&
                        setup.parameters.t_ss - targets.phase_time <= setup.t_left + 1e-9;
-      if (pushed < 0 && due) pushed = i;
+      if (pushed < 0 && due) {
+        pushed = i;
+        outcome.push_time = loop.time();
+      }
       return pushed >= 0 && i < pushed + push_ticks ? push : Vec2(Vec2::Zero());
     });
     if (trace != nullptr) trace->push_back(loop.sample());
@@ -112,7 +115,10 @@ double stepping_ceiling(const SteppingSetup& setup, SteppingStrategy strategy) {
   if (strategy != SteppingStrategy::ankle) ability.reach = corners(reach.polygon(Side::left));
   ability.t_ss = p.t_ss;
   ability.t_ds = p.t_ds;
-  if (strategy == SteppingStrategy::time) ability.sooner = ability.later = p.time_limit;
+  if (strategy == SteppingStrategy::time) {
+    ability.sooner = std::clamp(p.t_ss - p.least_t_ss, 0.0, p.time_limit);
+    ability.later = p.time_limit;
+  }
 
   CeilingPush push;
   push.direction = unit(setup.direction);
@@ -173,7 +179,7 @@ std::vector<SteppingLimits> stepping_limits(
 
   std::vector<SteppingLimits> limits;
   for (const auto& [timing, direction] : conditions) {
-    limits.push_back({timing, direction, {}, {}, {}, noise_seeds});
+    limits.push_back({timing, direction, {}, {}, {}, {}, {}, noise_seeds});
   }
   std::vector<double> noisy;
   for (std::size_t i = 0; i < searches.size(); ++i) {
@@ -185,7 +191,11 @@ std::vector<SteppingLimits> stepping_limits(
       noisy.clear();
     } else {
       noisy.push_back(found[i].fall);
-      if (search.seed == noise_seeds) force_of(limit.noise_median, search.strategy) = median(noisy);
+      if (search.seed < noise_seeds) continue;
+      const auto [least, greatest] = std::minmax_element(noisy.begin(), noisy.end());
+      force_of(limit.noise_least, search.strategy) = *least;
+      force_of(limit.noise_greatest, search.strategy) = *greatest;
+      force_of(limit.noise_median, search.strategy) = median(noisy);
     }
   }
   return limits;

@@ -37,6 +37,7 @@ inline constexpr double push_duration = 0.01;  ///< [s]
 
 struct SteppingOutcome {
   bool fell = false;
+  double push_time = 0.0;  ///< when the push began [s]
   /// The step under way at the push: where it landed from the stance foot, forward [m], and by how
   /// much its single support was changed [s].
   double landing = 0.0;
@@ -67,6 +68,8 @@ struct SteppingLimits {
   StrategyForces fall;     ///< first fall, without noise
   StrategyForces ceiling;
   StrategyForces noise_median;  ///< first fall under the paper's noise, median of the seeds
+  StrategyForces noise_least;   ///< and the least and the greatest of them
+  StrategyForces noise_greatest;
   int noise_seeds = 0;
 };
 

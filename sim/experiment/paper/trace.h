@@ -19,6 +19,9 @@ struct TraceSample {
   TracedPoint zmp;
   TracedPoint com;
   TracedPoint dcm;
+  /// Bounding box of the support polygon [m].
+  engine::Vec2 sole_low = engine::Vec2::Zero();
+  engine::Vec2 sole_high = engine::Vec2::Zero();
 };
 using Trace = std::vector<TraceSample>;
 

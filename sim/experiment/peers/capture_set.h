@@ -2,8 +2,7 @@
 // times.
 #pragma once
 
-#include <vector>
-
+#include "engine/capturability.h"
 #include "engine/reach.h"
 
 namespace stagger::sim {
@@ -18,14 +17,9 @@ struct PointWalker {
 };
 
 /// The DCM offsets from the stance foot right after touchdown from which the walker can go on for
-/// ever. With R the reach of that stance and C' the set of the other stance, the best that can be
-/// done is C = union over T of e^{-w T} (R + C'): a convex polygon, the hull of both ends of T.
-/// Found by doing that again and again from {0}; it contracts by e^{-w t_min} a step, so that there
-/// is one such set and any beginning leads to it.
+/// ever: engine::viable_dcm() of a sole that is a point.
 class CaptureSet {
  public:
-  using Polygon = std::vector<engine::Vec2>;  ///< convex, counter-clockwise [m]
-
   explicit CaptureSet(const PointWalker& walker);
 
   /// Of the DCM from the new stance foot at touchdown; negative outside [m].
@@ -33,12 +27,13 @@ class CaptureSet {
   /// The same when the step under way can end between `earliest` and `latest` from now [s].
   double margin(engine::Side stance, const engine::Vec2& dcm_offset, double earliest,
                 double latest) const;
-  const Polygon& polygon(engine::Side stance) const { return sets_[engine::index(stance)]; }
+  const engine::ConvexSet& polygon(engine::Side stance) const {
+    return sets_[engine::index(stance)];
+  }
 
  private:
-  double omega_;
-  engine::PerFoot<Polygon> sets_;      ///< C
-  engine::PerFoot<Polygon> landings_;  ///< R + C': where the DCM may be at touchdown
+  engine::StepAbility ability_;
+  engine::PerFoot<engine::ConvexSet> sets_;
 };
 
 /// Lets the walker go on from right after a touchdown, always with its best reaction, until its DCM

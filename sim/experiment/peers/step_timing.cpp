@@ -69,6 +69,9 @@ StepDecision our_decision(const StepTimingCase& c) {
   situation.nominal_dcm = c.nominal_step + c.nominal_offset;
   engine::Parameters parameters;
   parameters.step_margin = 0.0;  // for noise, and here is none
+  // Points do not get into each other's way.
+  parameters.foot_half_length = parameters.foot_half_width = 0.0;
+  parameters.foot_clearance = 0.0;
   const double left =
       engine::adjust_time(situation, c.nominal - c.elapsed, c.earliest - c.elapsed,
                           c.walker.t_max - c.elapsed, c.walker.omega, c.walker.reach);
