@@ -65,15 +65,17 @@ struct Parameters {
   double measurement_noise = 6.25e-4;  ///< variance of the measured c and dcm [m^2]
   double push_gate = 5.0;  ///< innovations beyond this many standard deviations are a push
 
-  /// Share of the sole by which the ankle is reckoned to move the ZMP before a step is adjusted.
+  /// Share of the sole by which the ankle is reckoned to move the ZMP before a step is adjusted, in
+  /// [0, 1]. With 0 the ankle is not reckoned with at all, as in the paper; else all of the sole is
+  /// where no step reaches.
   double ankle_share = 0.3;
   double step_gain = 1.0;     ///< k_sa of eq. (11)
   double step_margin = 0.03;  ///< compliance margin on |Delta_f| [m]
   double step_freeze = 0.06;  ///< place and time stay as they are in the last part of the swing [s]
   double time_limit = 0.2;    ///< |adjusted - nominal| single support duration [s]
   double time_constant = 0.04;  ///< of the lag filter of eq. (13): k_f = tick / time_constant [s]
-  /// A step that would have to be longer than this share of what the leg reaches comes sooner
-  /// instead, in (0, 1]. With 1 the time is adjusted only once the place has done all it can.
+  /// A step that would have to be longer than this share of what the leg reaches, forward or
+  /// backward, comes sooner as well, in (0, 1]. With 1 it does once the place has done all it can.
   double time_reach = 1.0;
   double least_t_ss = 0.15;  ///< no single support is adjusted to less [s]
   double swing_speed = 1e9;  ///< greatest speed of the swing foot [m/s]

@@ -367,7 +367,7 @@ void WalkingEngine::adjust() {
 }
 
 void WalkingEngine::lean_on_ankle(StepSituation& now, double left) const {
-  if (!parameters_.strategies.ankle) return;
+  if (!parameters_.strategies.ankle || parameters_.ankle_share == 0.0) return;
   const auto foothold_error = [&](const Vec2& foothold) -> Vec2 {
     return catching_line(now).foothold(std::exp(omega_ * left)) - foothold;
   };
