@@ -58,7 +58,7 @@ TEST(LipmStanding, TheAnkleRecoversAllThatCanBe) {
   EXPECT_EQ(result.beyond, 0);
 }
 
-TEST(LipmStanding, AlsoUnderNoise) {
+TEST(LipmLimitsStanding, AlsoUnderNoise) {
   StandingSetup setup;
   setup.noise = paper_noise;
   for (setup.seed = 1; setup.seed <= 5; ++setup.seed) {
@@ -68,7 +68,7 @@ TEST(LipmStanding, AlsoUnderNoise) {
   }
 }
 
-TEST(LipmStanding, TheHipComesNearToItsBound) {
+TEST(LipmLimitsStanding, TheHipComesNearToItsBound) {
   const StandingResult light = run_standing(with_hip(100.0, 1.0, 0.5));
   EXPECT_EQ(light.bound, 119);
   EXPECT_GE(light.recovered, 117);
@@ -88,14 +88,14 @@ double share_of_ceiling(const PushTiming& timing, SteppingStrategy strategy, dou
   return first_fall(setup, ceiling) / ceiling;
 }
 
-class LipmStepping : public ::testing::TestWithParam<int> {
+class LipmLimits : public ::testing::TestWithParam<int> {
  protected:
   static PushTiming timing() { return stepping_timings()[static_cast<std::size_t>(GetParam())]; }
 };
 
-INSTANTIATE_TEST_SUITE_P(Timings, LipmStepping, ::testing::Range(0, 5));
+INSTANTIATE_TEST_SUITE_P(Timings, LipmLimits, ::testing::Range(0, 5));
 
-TEST_P(LipmStepping, NearlyReachesTheCeilingForwardAndBackward) {
+TEST_P(LipmLimits, NearlyReachesTheCeilingForwardAndBackward) {
   for (const double direction : {0.0, M_PI}) {
     for (const SteppingStrategy strategy : stepping_strategies) {
       const double share = share_of_ceiling(timing(), strategy, direction);
@@ -106,7 +106,7 @@ TEST_P(LipmStepping, NearlyReachesTheCeilingForwardAndBackward) {
 }
 
 // Towards +90 degrees the stance foot stands in the way: without crossing the ankle has to do it.
-TEST_P(LipmStepping, NearlyReachesTheCeilingSideways) {
+TEST_P(LipmLimits, NearlyReachesTheCeilingSideways) {
   for (const double direction : {-M_PI / 2, M_PI / 2}) {
     for (const SteppingStrategy strategy : stepping_strategies) {
       const double share = share_of_ceiling(timing(), strategy, direction);
@@ -116,7 +116,7 @@ TEST_P(LipmStepping, NearlyReachesTheCeilingSideways) {
   }
 }
 
-TEST_P(LipmStepping, NearlyReachesTheCeilingDiagonally) {
+TEST_P(LipmLimits, NearlyReachesTheCeilingDiagonally) {
   for (const double direction : {-0.75 * M_PI, -0.25 * M_PI, 0.25 * M_PI, 0.75 * M_PI}) {
     for (const SteppingStrategy strategy : stepping_strategies) {
       const double share = share_of_ceiling(timing(), strategy, direction);
@@ -126,7 +126,7 @@ TEST_P(LipmStepping, NearlyReachesTheCeilingDiagonally) {
   }
 }
 
-TEST_P(LipmStepping, NearlyReachesTheCeilingUnderNoise) {
+TEST_P(LipmLimits, NearlyReachesTheCeilingUnderNoise) {
   const SteppingLimits limits = stepping_limits({{timing(), 0.0}}, 20).front();
   EXPECT_GE(limits.noise_median.ankle, 0.95 * limits.ceiling.ankle);
   EXPECT_GE(limits.noise_median.location, 0.95 * limits.ceiling.location);
@@ -152,7 +152,7 @@ TEST(LipmStepping, NoiseAloneCausesNoFall) {
   }
 }
 
-TEST(LipmRobustness, AWrongModelCostsForceButCausesNoFall) {
+TEST(LipmLimitsRobustness, AWrongModelCostsForceButCausesNoFall) {
   const std::vector<RobustnessResult> results = run_robustness();
   const RobustnessResult& exact = results.front();
   ASSERT_EQ(exact.fall.size(), stepping_timings().size());
