@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <ranges>
 
 namespace stagger::engine {
 namespace {
@@ -71,7 +72,7 @@ ConvexSet mirrored(const ConvexSet& set) {
   ConvexSet result;
   result.reserve(set.size());
   // Backwards: the mirror turns the order of the corners around.
-  for (auto p = set.rbegin(); p != set.rend(); ++p) result.emplace_back(p->x(), -p->y());
+  for (const Vec2& p : std::ranges::reverse_view(set)) result.emplace_back(p.x(), -p.y());
   return result;
 }
 

@@ -72,11 +72,13 @@ void validate_ranges(const Parameters& p) {
   within("measurement_noise", p.measurement_noise, 1e-18, 1.0, "m^2");
   within("push_gate", p.push_gate, 0.1, unlimited, "standard deviations");
 
+  within("ankle_share", p.ankle_share, 0.0, 1.0, "");
   within("step_gain", p.step_gain, 0.0, 10.0, "");
   within("step_margin", p.step_margin, 0.0, unlimited, "m");
   within("step_freeze", p.step_freeze, 0.0, 60.0, "s");
   within("time_limit", p.time_limit, 0.0, 60.0, "s");
   within("time_constant", p.time_constant, 1e-6, unlimited, "s");
+  within("time_reach", p.time_reach, 0.01, 1.0, "");
   within("least_t_ss", p.least_t_ss, 0.01, 60.0, "s");
   within("swing_speed", p.swing_speed, 1e-3, unlimited, "m/s");
   within("contact_load", p.contact_load, 0.0, unlimited, "N");

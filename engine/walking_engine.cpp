@@ -37,9 +37,9 @@ Lqg make_lqg(const Parameters& p) {
     std::ostringstream text;
     text << "engine parameters lqr_state_weight = (" << q[0] << ", " << q[1] << ", " << q[2]
          << "), lqr_zmp_weight = " << p.lqr_zmp_weight
-         << " give no controller that keeps the balance; the weight of the integral (third) has to "
-            "be greater than 0 and not small beyond reason against the others, and so has that of "
-            "the DCM (second) or of the CoM (first): "
+         << " give no controller that keeps the balance; one of them has to be greater than 0, and "
+            "the "
+            "third, of the integral, either 0 (no integrator) or not small beyond reason: "
          << error.what();
     throw std::invalid_argument(text.str());
   }

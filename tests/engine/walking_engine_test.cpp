@@ -171,6 +171,7 @@ TEST(WalkingEngine, StepsSoonerRatherThanBeyondTheTimesReach) {
     parameters.max_step_length = 0.3;
     parameters.time_reach = time_reach;
     parameters.time_constant = 0.01;
+    parameters.ankle_share = 0.0;  // all of the catch is the step's
     Walk walk(parameters);
     walk.engine().walk({});
     walk.run(4.05);
