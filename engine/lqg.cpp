@@ -2,13 +2,15 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <sstream>
+#include <stdexcept>
 
 #include "engine/riccati.h"
 
 namespace stagger::engine {
 namespace {
 
-Eigen::RowVector3d design_feedback(const Parameters& p, const DiscreteLipm& lipm) {
+Eigen::RowVector3d stabilising_feedback(const Parameters& p, const DiscreteLipm& lipm) {
   const Eigen::Matrix<double, 1, 1> r(p.lqr_zmp_weight * p.tick);
   const Eigen::Matrix3d q = (p.lqr_state_weight * p.tick).asDiagonal();
   if (p.lqr_state_weight(2) == 0.0) {
@@ -25,6 +27,22 @@ Eigen::RowVector3d design_feedback(const Parameters& p, const DiscreteLipm& lipm
   Eigen::Vector3d b;
   b << lipm.b, 0.0;
   return lqr_gain(a, b, q, r);
+}
+
+Eigen::RowVector3d design_feedback(const Parameters& p, const DiscreteLipm& lipm) {
+  try {
+    return stabilising_feedback(p, lipm);
+  } catch (const std::invalid_argument& error) {
+    const Vec3& q = p.lqr_state_weight;
+    std::ostringstream text;
+    text << "engine parameters lqr_state_weight = (" << q[0] << ", " << q[1] << ", " << q[2]
+         << "), lqr_zmp_weight = " << p.lqr_zmp_weight
+         << " give no controller that keeps the balance; one of them has to be greater than 0, and "
+            "the "
+            "third, of the integral, either 0 (no integrator) or not small beyond reason: "
+         << error.what();
+    throw std::invalid_argument(text.str());
+  }
 }
 
 /// Weight of the newest innovation in their average: about nine ticks count.

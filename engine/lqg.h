@@ -1,8 +1,8 @@
 // The low-level controller: Kalman filter, integrator and state feedback on the LIPM, eqs. (5)-(8).
 #pragma once
 
-#include "engine/capture_region.h"
 #include "engine/convex_polygon.h"
+#include "engine/dcm_goal.h"
 #include "engine/lipm.h"
 #include "engine/parameters.h"
 

@@ -14,4 +14,19 @@ struct Measurement {
   PerFoot<double> foot_load{};  ///< normal force under each foot [N]
 };
 
+/// Written so that a NaN is none.
+inline bool plausible(double value) {
+  constexpr double most = 1e6;
+  return std::abs(value) <= most;
+}
+inline bool plausible(const Vec3& v) {
+  return plausible(v.x()) && plausible(v.y()) && plausible(v.z());
+}
+inline bool plausible(const FootPose& pose) {
+  return plausible(pose.position) && plausible(pose.yaw);
+}
+
+/// Throws std::invalid_argument when an engine cannot start from this.
+void validate(const Measurement& start);
+
 }  // namespace stagger::engine

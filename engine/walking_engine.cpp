@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
-#include <sstream>
-#include <stdexcept>
 
 namespace stagger::engine {
 namespace {
@@ -16,33 +14,9 @@ Footstep footstep(const FootPose& pose, Side side) {
   return {pose.position.head<2>(), pose.yaw, side};
 }
 
-/// Written so that a NaN is none.
-bool plausible(double value) {
-  constexpr double most = 1e6;
-  return std::abs(value) <= most;
-}
-bool plausible(const Vec3& v) { return plausible(v.x()) && plausible(v.y()) && plausible(v.z()); }
-bool plausible(const FootPose& pose) { return plausible(pose.position) && plausible(pose.yaw); }
-
 const Parameters& valid(const Parameters& parameters) {
   validate(parameters);
   return parameters;
-}
-
-Lqg make_lqg(const Parameters& p) {
-  try {
-    return Lqg(p);
-  } catch (const std::invalid_argument& error) {
-    const Vec3& q = p.lqr_state_weight;
-    std::ostringstream text;
-    text << "engine parameters lqr_state_weight = (" << q[0] << ", " << q[1] << ", " << q[2]
-         << "), lqr_zmp_weight = " << p.lqr_zmp_weight
-         << " give no controller that keeps the balance; one of them has to be greater than 0, and "
-            "the "
-            "third, of the integral, either 0 (no integrator) or not small beyond reason: "
-         << error.what();
-    throw std::invalid_argument(text.str());
-  }
 }
 
 WalkingEngine::StepListError list_error(StepFault fault) {
@@ -75,16 +49,13 @@ WalkingEngine::WalkingEngine(const Parameters& parameters, const Measurement& st
       time_reach_(reach.scaled_length(parameters.time_reach)),
       capture_(parameters, reach),
       machine_(parameters),
-      lqg_(make_lqg(parameters)),
+      lqg_(parameters),
       hip_(parameters.hip, parameters.mass * parameters.gravity, omega_, parameters.tick),
       pattern_(step_pattern({}, reach, parameters)),
       coming_{pattern_, pattern_},
       measured_(start),
       standing_(start.feet) {
-  if (!plausible(start.com) || !plausible(start.com_velocity) || !plausible(start.feet[0]) ||
-      !plausible(start.feet[1])) {
-    throw std::invalid_argument("the first measurement is not finite");
-  }
+  validate(start);
   stance_ = footstep(start.feet[index(Side::left)], Side::left);
   landed_ = footstep(start.feet[index(Side::right)], Side::right);
   planned_ = landed_;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/capturability.h"
+#include "engine/dcm_goal.h"
 #include "engine/lipm.h"
 
 namespace stagger::engine {
