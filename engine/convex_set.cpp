@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <ranges>
 
 namespace stagger::engine {
 namespace {
@@ -69,10 +68,9 @@ ConvexSet shifted(const ConvexSet& set, const Vec2& by) {
 }
 
 ConvexSet mirrored(const ConvexSet& set) {
-  ConvexSet result;
-  result.reserve(set.size());
-  // Backwards: the mirror turns the order of the corners around.
-  for (const Vec2& p : std::ranges::reverse_view(set)) result.emplace_back(p.x(), -p.y());
+  ConvexSet result = set;
+  for (Vec2& p : result) p.y() = -p.y();
+  std::reverse(result.begin(), result.end());  // the mirror turns the order of the corners around
   return result;
 }
 
