@@ -1,6 +1,8 @@
 #include "engine/capturability.h"
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace stagger::engine {
 namespace {
@@ -32,10 +34,27 @@ ConvexSet before(const StepAbility& ability, const ConvexSet& end, double earlie
 
 }  // namespace
 
+StepAbility step_ability(const Parameters& p, const ReachRegion& reach, bool free_times) {
+  const double x = p.foot_half_length - p.sole_margin;
+  const double y = p.foot_half_width - p.sole_margin;
+  StepAbility ability;
+  ability.omega = natural_frequency(p);
+  ability.sole = {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
+  ability.reach = corners(reach.polygon(Side::left));
+  ability.t_ss = p.t_ss;
+  ability.t_ds = p.t_ds;
+  if (free_times) {
+    ability.sooner = std::min(p.time_limit, std::max(p.t_ss - p.least_t_ss, 0.0));
+    ability.later = p.time_limit;
+  }
+  return ability;
+}
+
 ConvexSet viable_dcm(const StepAbility& ability) {
   // A contraction by e^{-w (Tss + Tds)} a step: it converges from wherever it begins.
   const double shortest = ability.t_ss - ability.sooner;
   const double decay = ability.omega * (shortest + ability.t_ds);
+  if (!(decay > 0.0)) throw std::invalid_argument("capturability: steps that last no time");
   constexpr double digits = 32.0;  // e^-32: below what hulls are rounded to
   const int steps = static_cast<int>(std::ceil(digits / decay));
   ConvexSet viable = ability.sole;

@@ -7,12 +7,6 @@
 namespace stagger::engine {
 namespace {
 
-ConvexSet corners(const ConvexPolygon& polygon) {
-  ConvexSet set;
-  for (std::size_t i = 0; i < polygon.size(); ++i) set.push_back(polygon.vertex(i));
-  return set;
-}
-
 /// Of the sole, what later steps are reckoned to need at most: the rest is for errors.
 constexpr double kept_share = 0.9;
 
@@ -34,18 +28,13 @@ ConvexPolygon within(const ConvexSet& set) {
 
 }  // namespace
 
-CaptureRegion::CaptureRegion(const Parameters& p, const ReachRegion& reach) {
-  const double x = kept_share * (p.foot_half_length - p.sole_margin);
-  const double y = kept_share * (p.foot_half_width - p.sole_margin);
-  StepAbility ability;
-  ability.omega = natural_frequency(p);
-  ability.sole = {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
-  ability.reach = corners(reach.polygon(Side::left));
-  ability.t_ss = p.t_ss;
-  ability.t_ds = p.t_ds;
-  if (p.strategies.time) ability.sooner = ability.later = p.time_limit;
-  const ConvexSet left = viable_dcm(ability);
-  polygons_ = {within(left), within(mirrored(left))};
+CaptureRegion::CaptureRegion(const Parameters& parameters, const ReachRegion& reach) {
+  for (const bool free_times : {false, true}) {
+    StepAbility ability = step_ability(parameters, reach, free_times);
+    ability.sole = scaled(ability.sole, kept_share);
+    const ConvexSet left = viable_dcm(ability);
+    polygons_[free_times ? 1 : 0] = {within(left), within(mirrored(left))};
+  }
 }
 
 }  // namespace stagger::engine

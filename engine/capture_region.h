@@ -6,17 +6,19 @@
 
 namespace stagger::engine {
 
-/// viable_dcm() for the parameters' sole, reach and nominal step times: one polygon for each stance
-/// foot, in that foot's frame. A region of more than eight corners is cut down to eight of them, so
-/// that what lies inside is still viable.
+/// viable_dcm() for 0.9 of the parameters' sole and their reach: one polygon for each stance foot,
+/// in that foot's frame, with the nominal step times and with those that may be adjusted. A region
+/// of more than eight corners is cut down to eight of them, so that nothing is added.
 class CaptureRegion {
  public:
   CaptureRegion(const Parameters& parameters, const ReachRegion& reach);
 
-  const ConvexPolygon& polygon(Side stance) const { return polygons_[index(stance)]; }
+  const ConvexPolygon& polygon(Side stance, bool free_times) const {
+    return polygons_[free_times ? 1 : 0][index(stance)];
+  }
 
  private:
-  PerFoot<ConvexPolygon> polygons_;
+  std::array<PerFoot<ConvexPolygon>, 2> polygons_;
 };
 
 }  // namespace stagger::engine

@@ -17,6 +17,12 @@ bool superfluous(const Vec2& a, const Vec2& b, const Vec2& c) {
 
 }  // namespace
 
+ConvexSet corners(const ConvexPolygon& polygon) {
+  ConvexSet set;
+  for (std::size_t i = 0; i < polygon.size(); ++i) set.push_back(polygon.vertex(i));
+  return set;
+}
+
 ConvexSet convex_hull(std::vector<Vec2> points) {
   std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) {
     return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());

@@ -4,13 +4,14 @@
 
 #include <vector>
 
-#include "engine/types.h"
+#include "engine/convex_polygon.h"
 
 namespace stagger::engine {
 
 /// Corners of a convex set, counter-clockwise.
 using ConvexSet = std::vector<Vec2>;
 
+ConvexSet corners(const ConvexPolygon& polygon);
 /// Hull of any points; corners that stick out by no more than a rounding error are left out.
 ConvexSet convex_hull(std::vector<Vec2> points);
 ConvexSet hull_of(const ConvexSet& a, const ConvexSet& b);

@@ -378,7 +378,8 @@ DcmGoal WalkingEngine::goal() const {
   const double gain = std::expm1(omega_ * machine_.double_support_left());
   if (gain <= 0.0) return {};
   const Vec2 held = plan_.dcm() - (plan_.dcm_at_end(0) - plan_.dcm()) / gain;
-  return {&capture_.polygon(landed_.side), landed_.position, landed_.yaw, 1.0 + gain, held};
+  return {&capture_.polygon(landed_.side, parameters_.strategies.time), landed_.position,
+          landed_.yaw, 1.0 + gain, held};
 }
 
 void WalkingEngine::move_swing_foot() {

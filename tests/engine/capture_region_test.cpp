@@ -93,17 +93,45 @@ TEST(Capturability, InsideSomeChoiceStaysInsideAndOutsideNoneDoes) {
 
 TEST(CaptureRegion, LiesWithinTheViableOneAndKeepsSomeOfTheSole) {
   Parameters parameters;
-  parameters.strategies.time = false;
   const CaptureRegion region(parameters, ReachRegion(parameters));
   const ConvexSet viable = viable_dcm(paper_robot());
-  const ConvexPolygon& left = region.polygon(Side::left);
+  const ConvexPolygon& left = region.polygon(Side::left, false);
   ASSERT_GE(left.size(), 4U);
   for (std::size_t i = 0; i < left.size(); ++i) {
     EXPECT_GE(margin(viable, left.vertex(i)), 1e-3);
     EXPECT_LE(margin(viable, left.vertex(i)), 0.02);
   }
-  const ConvexPolygon& right = region.polygon(Side::right);
+  const ConvexPolygon& right = region.polygon(Side::right, false);
   EXPECT_NEAR(left.margin({0.02, 0.01}), right.margin({0.02, -0.01}), 1e-12);
+}
+
+TEST(CaptureRegion, FreeStepTimesMakeItLarger) {
+  const Parameters parameters;
+  const CaptureRegion region(parameters, ReachRegion(parameters));
+  const ConvexPolygon& nominal = region.polygon(Side::left, false);
+  const ConvexPolygon& free = region.polygon(Side::left, true);
+  for (std::size_t i = 0; i < nominal.size(); ++i) EXPECT_GE(free.margin(nominal.vertex(i)), -1e-9);
+  EXPECT_LT(nominal.margin({0.2, 0.0}), 0.0);
+  EXPECT_GT(free.margin({0.2, 0.0}), 0.0);
+}
+
+// Steps as short as the limit of their time: no step is reckoned to last no time.
+TEST(CaptureRegion, ShortStepsKeepTheirLeastTime) {
+  Parameters parameters;
+  parameters.t_ss = 0.2;
+  parameters.t_ds = 0.0;
+  const StepAbility ability = step_ability(parameters, ReachRegion(parameters), true);
+  EXPECT_NEAR(ability.t_ss - ability.sooner, parameters.least_t_ss, 1e-12);
+  // d = h + l e^{-w T} / (1 - e^{-w T}) with the shortest steps.
+  const double g = std::exp(-omega * parameters.least_t_ss);
+  EXPECT_NEAR(forward_end(viable_dcm(ability)), 0.075 + 0.95 * g / (1.0 - g), 1e-6);
+}
+
+TEST(Capturability, RefusesStepsThatLastNoTime) {
+  StepAbility ability = paper_robot();
+  ability.t_ds = 0.0;
+  ability.sooner = ability.t_ss;
+  EXPECT_THROW(viable_dcm(ability), std::invalid_argument);
 }
 
 class ZmpTowards : public ::testing::Test {

@@ -6,18 +6,13 @@
 
 #include "server/report/paper_table.h"
 #include "tests/server/paper_results.h"
+#include "tests/server/text_count.h"
 
 namespace stagger::server {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t n = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
-  return n;
-}
 
 TEST(PaperReport, HasAPictureForEachOfThePapersFigures) {
   const std::string html = paper_report(small_results(), "stagger <paper>");

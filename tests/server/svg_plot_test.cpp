@@ -4,17 +4,13 @@
 
 #include <limits>
 
+#include "tests/server/text_count.h"
+
 namespace stagger::server {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t n = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
-  return n;
-}
 
 Plot simple() {
   Plot plot;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "engine/reference.h"
 #include "sim/experiment/median.h"
@@ -16,12 +17,6 @@ constexpr std::uint64_t steps_before_push = 2;
 constexpr double watch_s = 5.0;
 
 Vec2 unit(double direction) { return {std::cos(direction), std::sin(direction)}; }
-
-engine::ConvexSet corners(const engine::ConvexPolygon& polygon) {
-  engine::ConvexSet set;
-  for (std::size_t i = 0; i < polygon.size(); ++i) set.push_back(polygon.vertex(i));
-  return set;
-}
 
 }  // namespace
 
@@ -98,27 +93,17 @@ SteppingOutcome run_stepping(const SteppingSetup& setup, double force, Trace* tr
       break;
     }
   }
+  // A push that never came would count as one that was survived.
+  if (pushed < 0 && !outcome.fell) throw std::logic_error("the gait never came to its push");
   return outcome;
 }
 
 double stepping_ceiling(const SteppingSetup& setup, SteppingStrategy strategy) {
   const engine::Parameters& p = setup.parameters;
   const double omega = engine::natural_frequency(p);
-  const engine::ReachRegion reach(p);
-  engine::StepAbility ability;
-  ability.omega = omega;
-  ability.sole = {{-p.foot_half_length, -p.foot_half_width},
-                  {p.foot_half_length, -p.foot_half_width},
-                  {p.foot_half_length, p.foot_half_width},
-                  {-p.foot_half_length, p.foot_half_width}};
-  ability.reach = {{0.0, -p.stance_width}};
-  if (strategy != SteppingStrategy::ankle) ability.reach = corners(reach.polygon(Side::left));
-  ability.t_ss = p.t_ss;
-  ability.t_ds = p.t_ds;
-  if (strategy == SteppingStrategy::time) {
-    ability.sooner = std::clamp(p.t_ss - p.least_t_ss, 0.0, p.time_limit);
-    ability.later = p.time_limit;
-  }
+  engine::StepAbility ability =
+      engine::step_ability(p, engine::ReachRegion(p), strategy == SteppingStrategy::time);
+  if (strategy == SteppingStrategy::ankle) ability.reach = {{0.0, -p.stance_width}};
 
   CeilingPush push;
   push.direction = unit(setup.direction);

@@ -11,8 +11,7 @@ using engine::Vec2;
 CaptureSet::CaptureSet(const PointWalker& walker) {
   ability_.omega = walker.omega;
   ability_.sole = {Vec2::Zero()};
-  const engine::ConvexPolygon& reach = walker.reach.polygon(Side::left);
-  for (std::size_t i = 0; i < reach.size(); ++i) ability_.reach.push_back(reach.vertex(i));
+  ability_.reach = engine::corners(walker.reach.polygon(Side::left));
   ability_.t_ss = walker.t_max;
   ability_.t_ds = 0.0;
   ability_.sooner = walker.t_max - walker.t_min;
