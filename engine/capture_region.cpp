@@ -1,6 +1,6 @@
 #include "engine/capture_region.h"
 
-#include <numbers>
+#include <limits>
 
 #include "engine/capturability.h"
 
@@ -10,20 +10,25 @@ namespace {
 /// Of the sole, what later steps are reckoned to need at most: the rest is for errors.
 constexpr double kept_share = 0.9;
 
-/// The corners that lie farthest out in as many directions as a polygon can have corners.
-ConvexPolygon within(const ConvexSet& set) {
-  std::array<Vec2, ConvexPolygon::capacity> points;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    // Not along the axes: of a box's corners each is then the farthest in two directions.
-    const double angle = 2.0 * std::numbers::pi * (static_cast<double>(i) + 0.5) /
-                         static_cast<double>(points.size());
-    const Vec2 direction(std::cos(angle), std::sin(angle));
-    points[i] = set.front();
-    for (const Vec2& corner : set) {
-      if (direction.dot(corner) > direction.dot(points[i])) points[i] = corner;
+/// Cut down to as many corners as a polygon can have, each time by the one that costs the least
+/// area.
+ConvexPolygon within(ConvexSet set) {
+  while (set.size() > ConvexPolygon::capacity) {
+    const std::size_t n = set.size();
+    std::size_t least = 0;
+    double least_area = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec2 before = set[(i + n - 1) % n] - set[i];
+      const Vec2 after = set[(i + 1) % n] - set[i];
+      const double area = std::abs(before.x() * after.y() - before.y() * after.x());
+      if (area < least_area) {
+        least_area = area;
+        least = i;
+      }
     }
+    set.erase(set.begin() + static_cast<std::ptrdiff_t>(least));
   }
-  return ConvexPolygon(points);
+  return ConvexPolygon(set);
 }
 
 }  // namespace

@@ -8,7 +8,8 @@ namespace stagger::engine {
 
 /// viable_dcm() for 0.9 of the parameters' sole and their reach: one polygon for each stance foot,
 /// in that foot's frame, with the nominal step times and with those that may be adjusted. A region
-/// of more than eight corners is cut down to eight of them, so that nothing is added.
+/// of more than eight corners is cut down to those eight that cost the least area; nothing is
+/// added.
 class CaptureRegion {
  public:
   CaptureRegion(const Parameters& parameters, const ReachRegion& reach);
