@@ -45,7 +45,7 @@ T LiveSession::call(std::function<T()> action) {
                show_state();
                ticket->answer(std::move(value));
              } catch (const CommandError& error) {
-               ticket->fail(CommandError(error.kind(), error.what()));
+               ticket->fail(error);
              } catch (const std::exception& error) {
                break_down(error.what());
                ticket->fail(CommandError(CommandError::Kind::failed, error.what()));
@@ -98,7 +98,7 @@ Effect LiveSession::step(std::uint64_t ticks, const std::string& source) {
                         {{"ticks", static_cast<double>(ticks)}});
                steps_.push_back({ticks, ticket});
              } catch (const CommandError& error) {
-               ticket->fail(CommandError(error.kind(), error.what()));
+               ticket->fail(error);
              }
            },
            [ticket](const CommandError& error) { ticket->fail(error); }});

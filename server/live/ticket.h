@@ -30,8 +30,9 @@ class CommandError : public std::runtime_error {
   Kind kind_;
 };
 
-/// One answer from one thread to another. (Not std::promise: an exception object that travels
-/// between threads is freed inside the C++ library, where the thread sanitizer cannot follow.)
+/// One answer from one thread to another. No exception object goes with it, nor a copy of one (and
+/// so no std::promise): copies share their message, and whichever thread frees it does so inside
+/// the C++ library, where the thread sanitizer cannot follow.
 template <typename T>
 class Ticket {
  public:
@@ -50,10 +51,10 @@ class Ticket {
     answered_.notify_all();
   }
 
-  void fail(CommandError error) {
+  void fail(const CommandError& error) {
     {
       const std::lock_guard lock(mutex_);
-      error_ = std::move(error);
+      failure_ = {error.kind(), error.what()};
     }
     answered_.notify_all();
   }
@@ -61,21 +62,26 @@ class Ticket {
   /// The answer. Throws CommandError when the command failed or took longer than `patience`.
   T wait(std::chrono::milliseconds patience) {
     std::unique_lock lock(mutex_);
-    if (!answered_.wait_for(lock, patience, [this] { return value_ || error_; })) {
+    if (!answered_.wait_for(lock, patience, [this] { return value_ || failure_; })) {
       withdrawn_ = true;
       throw CommandError(CommandError::Kind::timeout,
                          claimed_ ? "the command takes longer than expected and is still under way"
                                   : "the simulation did not come to the command; it is withdrawn");
     }
-    if (error_) throw CommandError(*error_);
+    if (failure_) throw CommandError(failure_->kind, failure_->detail);
     return std::move(*value_);
   }
 
  private:
+  struct Failure {
+    CommandError::Kind kind;
+    std::string detail;
+  };
+
   std::mutex mutex_;
   std::condition_variable answered_;
   std::optional<T> value_;
-  std::optional<CommandError> error_;
+  std::optional<Failure> failure_;
   bool claimed_ = false;
   bool withdrawn_ = false;
 };
