@@ -426,13 +426,29 @@ void WalkingEngine::use_hip() {
     const Vec2 foothold = catching_line(now).foothold(growth);
     const Vec2 local = rotated(foothold - stance_.position, -yaw);
     measure(local, reach_.polygon(stance_.side), Vec2::Zero(), 0.0, now.transfer / growth);
-  } else if (single || machine_.state() == WalkingState::idle) {
+  } else if (single) {
+    // The ZMP that takes the DCM to where the plan wants it at touchdown; without a step ahead that
+    // is the DCM itself. A step that comes is allowed to be met a little off its plan.
+    const double decay = std::exp(-omega_ * machine_.single_support_left());
+    const double gain = 1.0 - decay;
+    if (gain > 0.0) {
+      measure((lqg_.dcm() - decay * plan_.dcm_at_end(0)) / gain, polygon_, stance_.position, yaw,
+              gain);
+      for (Excess& axis : excess) {
+        axis.plus -= decay * parameters_.step_margin;
+        axis.minus -= decay * parameters_.step_margin;
+      }
+    }
+  } else if (machine_.state() == WalkingState::idle) {
     measure(lqg_.dcm(), polygon_, stance_.position, yaw, 1.0);
   }
   hip_.update(excess, polygon_.margin(targets_.zmp_command), parameters_.strategies.hip);
   hip_aid_ = {rotated(hip_.zmp_shift(), yaw), rotated(hip_.swing(), yaw)};
   targets_.zmp_shift = hip_aid_.shift;
   targets_.hip_angle = hip_.angle();
+  targets_.hip_rate = hip_.rate();
+  targets_.hip_acceleration =
+      hip_.zmp_shift() * (parameters_.mass * parameters_.gravity / parameters_.hip.inertia);
 }
 
 void WalkingEngine::publish(const LqgReference& reference) {

@@ -2,13 +2,15 @@
 
 #include <algorithm>
 
-namespace stagger::sim {
+#include "sim/robot/hip_flywheel.h"
 
+namespace stagger::sim {
 engine::Parameters engine_parameters(const Robot& robot, PlantKind plant,
                                      const engine::Strategies& strategies, double tick) {
   const BipedDescription& d = robot.description;
   engine::Parameters p;
   p.tick = tick;
+  p.mass = robot.model.mass();
   p.com_height = d.walk.com_height_m;
   p.t_ss = d.walk.t_ss_s;
   p.least_t_ss = std::min(p.least_t_ss, p.t_ss);
@@ -22,6 +24,7 @@ engine::Parameters engine_parameters(const Robot& robot, PlantKind plant,
   p.min_step_width = d.walk.min_step_width_m;
   p.max_step_width = d.walk.max_step_width_m;
   p.strategies = strategies;
+  p.hip = hip_flywheel(robot);
 
   // Both plants report their state without noise, so the filter follows the measurement closely.
   p.process_noise = 1e-6;
@@ -29,6 +32,8 @@ engine::Parameters engine_parameters(const Robot& robot, PlantKind plant,
   p.step_margin = 0.01;
   // The whole-body controller keeps its corner forces this far inside the sole.
   if (plant == PlantKind::bullet) p.sole_margin = 0.005;
+  // A step may come as soon as a leg can swing, and as much later.
+  p.time_limit = 0.75 * p.t_ss;
   return p;
 }
 

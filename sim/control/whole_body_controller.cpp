@@ -1,11 +1,15 @@
 #include "sim/control/whole_body_controller.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "sim/plant/motor_limits.h"
 
 namespace stagger::sim {
 namespace {
+
+using engine::Vec2;
 
 /// Rotation vector that takes `from` to `to`, world axes [rad].
 Vec3 rotation_error(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
@@ -29,6 +33,7 @@ WholeBodyController::WholeBodyController(const Robot& robot, const WholeBodyGain
   for (const engine::Side side : {engine::Side::left, engine::Side::right}) {
     Foot& foot = feet_[engine::index(side)];
     foot.body = robot.foot_body(side);
+    legs_[engine::index(side)] = leg_geometry(robot, side);
     foot.sole = robot.sole_in_body(side);
     const SoleDescription& sole = robot.description.feet[engine::index(side)].sole;
     const double x = 0.5 * sole.length - gains.sole_margin;
@@ -54,14 +59,83 @@ void WholeBodyController::add_com_task(const RigidBody& body,
   const double omega_squared = gravity_ / targets.com_height;
   const Vec3 com = body.com();
   const double ground = targets.feet[engine::index(targets.support_side)].position.z();
-  // Eq. (2): the ZMP that the engine wants is an acceleration of the CoM.
+  // Eq. (2): the ZMP that the engine wants is an acceleration of the CoM. The hip strategy's torque
+  // acts like a ZMP farther out.
   Vec3 wanted;
-  wanted.head<2>() = omega_squared * (com.head<2>() - targets.zmp_command);
-  wanted.z() = gains_.height_stiffness * (ground + targets.com_height - com.z()) -
+  wanted.head<2>() = omega_squared * (com.head<2>() - targets.zmp_command - targets.zmp_shift);
+  const double height = std::min(ground + targets.com_height, reachable_com_height(body, targets));
+  wanted.z() = gains_.height_stiffness * (height - com.z()) -
                gains_.height_damping * body.com_velocity().z();
   wanted -= body.com_bias_acceleration();
   add_task(gains_.com_weight, body.com_jacobian().topRows(2), wanted.head<2>());
   add_task(gains_.height_weight, body.com_jacobian().bottomRows(1), wanted.tail<1>());
+}
+
+double WholeBodyController::reachable_com_height(const RigidBody& body,
+                                                 const engine::WalkingTargets& targets) const {
+  const Vec3 com = body.com();
+  const Vec2 velocity = body.com_velocity().head<2>();
+  // Where the CoM will be at touchdown: eq. (3) with the ZMP as it is now.
+  const double omega = std::sqrt(gravity_ / targets.com_height);
+  const bool single = targets.state == engine::WalkingState::single_support;
+  const double left = single ? std::max(targets.t_ss - targets.phase_time, 0.0) : 0.0;
+  const Vec2 way = (std::cosh(omega * left) - 1.0) * (com.head<2>() - targets.zmp_command) +
+                   std::sinh(omega * left) / omega * velocity;
+  double height = std::numeric_limits<double>::infinity();
+  for (const engine::Side side : {engine::Side::left, engine::Side::right}) {
+    const std::size_t i = engine::index(side);
+    const LegGeometry& leg = legs_[i];
+    if (leg.length <= 0.0) continue;
+    const Vec3 hip = body.position(leg.hip_body);
+    const Vec3 ankle = body.position(leg.ankle_body);
+    const Vec3 sole = body.pose(feet_[i].body) * feet_[i].sole.translation();
+    Vec3 end = ankle;
+    if (!targets.feet[i].in_contact) {
+      end.head<2>() += targets.adjusted_step.position - sole.head<2>();
+      end.z() =
+          ankle.z() - sole.z() + targets.feet[engine::index(targets.support_side)].position.z();
+    }
+    const double longest = gains_.leg_stretch * leg.length;
+    const auto limit = [&](const Vec2& apart, double end_z) {
+      const double rest = longest * longest - apart.squaredNorm();
+      height = std::min(
+          height, end_z + std::sqrt(std::max(rest, 0.25 * longest * longest)) + com.z() - hip.z());
+    };
+    if (targets.feet[i].in_contact) limit((hip - ankle).head<2>(), ankle.z());
+    limit(hip.head<2>() + way - end.head<2>(), end.z());
+  }
+  return height;
+}
+
+void WholeBodyController::add_joint_limit_tasks(const RobotState& state) {
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    const auto i = static_cast<Eigen::Index>(j);
+    const Body& joint = joints_[j];
+    for (const double way : {1.0, -1.0}) {
+      const double end = way > 0.0 ? joint.upper : joint.lower;
+      if (!std::isfinite(end)) continue;
+      // The greatest speed from which it can still stop before the end of its range.
+      const double room = way * (end - state.q[i]) - gains_.limit_margin;
+      const double most = std::sqrt(2.0 * gains_.limit_braking * std::max(room, 0.0));
+      const double speed = way * state.qd[i];
+      const double excess = speed - most;
+      if (excess <= 0.0 && room > 0.0) continue;
+      const double braking = room > 0.0 ? gains_.limit_braking : -gains_.limit_return * room;
+      const double wanted = -way * (braking + gains_.limit_damping * excess);
+      const Eigen::Index x = 6 + i;
+      problem_.h(x, x) += gains_.limit_weight;
+      problem_.g[x] -= gains_.limit_weight * wanted;
+    }
+  }
+}
+
+void WholeBodyController::add_momentum_task(const RigidBody& body,
+                                            const engine::WalkingTargets& targets) {
+  if (targets.zmp_shift.isZero()) return;
+  const double weight = body.mass() * gravity_;
+  const Vec2 wanted = weight * Vec2(-targets.zmp_shift.y(), targets.zmp_shift.x()) -
+                      body.angular_momentum_bias().head<2>();
+  add_task(gains_.momentum_weight, body.angular_momentum_matrix().topRows(2), wanted);
 }
 
 void WholeBodyController::add_torso_task(const RigidBody& body,
@@ -69,12 +143,21 @@ void WholeBodyController::add_torso_task(const RigidBody& body,
   const Vec3 point = body.position(torso_body_);
   const Eigen::Matrix3d rotation = body.rotation(torso_body_) * torso_in_body_;
   const Vec3 omega = body.velocity(torso_body_, point).tail<3>();
-  const Vec3 wanted_omega(0.0, 0.0, targets.heading_velocity);
+  const Eigen::Matrix3d heading = yaw_rotation(targets.heading);
+  // The hip strategy's lean, about the heading's y and -x axes.
+  const auto leaning = [&](const Vec2& lean) -> Vec3 {
+    return heading * Vec3(-lean.y(), lean.x(), 0.0);
+  };
+  const Vec3 lean = leaning(targets.hip_angle);
+  const Eigen::Matrix3d goal =
+      lean.isZero() ? heading
+                    : Eigen::Matrix3d(Eigen::AngleAxisd(lean.norm(), lean.normalized()) * heading);
+  const Vec3 wanted_omega = leaning(targets.hip_rate) + Vec3(0.0, 0.0, targets.heading_velocity);
   body.jacobian(torso_body_, point, jacobian_);
-  const Vec3 wanted =
-      gains_.torso_stiffness * rotation_error(rotation, yaw_rotation(targets.heading)) +
-      gains_.torso_damping * (wanted_omega - omega) -
-      body.bias_acceleration(torso_body_, point).tail<3>();
+  const Vec3 wanted = leaning(targets.hip_acceleration) +
+                      gains_.torso_stiffness * rotation_error(rotation, goal) +
+                      gains_.torso_damping * (wanted_omega - omega) -
+                      body.bias_acceleration(torso_body_, point).tail<3>();
   add_task(gains_.torso_weight, jacobian_.bottomRows(3), wanted);
 }
 
@@ -174,8 +257,10 @@ const Eigen::VectorXd& WholeBodyController::compute(const RigidBody& body, const
   problem_.inequality_bound.resize(limits);
 
   add_com_task(body, targets);
+  add_momentum_task(body, targets);
   add_torso_task(body, targets);
   for (std::size_t i = 0; i < feet_.size(); ++i) add_foot_task(body, feet_[i], targets.feet[i]);
+  add_joint_limit_tasks(state);
   add_dynamics(body);
   add_limits(body, state);
 

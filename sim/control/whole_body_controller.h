@@ -8,6 +8,7 @@
 
 #include "engine/walking_targets.h"
 #include "sim/control/qp.h"
+#include "sim/robot/leg_geometry.h"
 #include "sim/robot/rigid_body.h"
 #include "sim/robot/robot.h"
 
@@ -16,17 +17,18 @@ namespace stagger::sim {
 /// Weights and gains. First chosen by the push scores of a 30 kg biped on the same controller; the
 /// push sweep in tests/bench measures them. Stiffness in 1/s^2, damping in 1/s.
 struct WholeBodyGains {
-  double com_weight = 1000.0;  ///< horizontal CoM acceleration w^2 (c - p)
+  double com_weight = 1000.0;  ///< horizontal CoM acceleration w^2 (c - p - hip's shift)
   double height_weight = 100.0;
   double height_stiffness = 100.0;
   double height_damping = 20.0;
-  double torso_weight = 1.0;  ///< low: the hips may lean to help the balance
+  double momentum_weight = 0.01;  ///< rate of angular momentum that the hip strategy asks for
+  double torso_weight = 1.0;      ///< low: the hips may lean to help the balance
   double torso_stiffness = 300.0;
   double torso_damping = 35.0;
   double swing_weight = 30.0;
   double swing_stiffness = 1500.0;
   double swing_damping = 75.0;
-  double swing_acceleration_limit = 60.0;  ///< [m/s^2]
+  double swing_acceleration_limit = 100.0;  ///< [m/s^2]
   double stance_weight = 1e4;
   double stance_damping = 60.0;
   double acceleration_regularisation = 1e-2;
@@ -34,6 +36,13 @@ struct WholeBodyGains {
   double friction = 0.5;  ///< of each axis of the pyramid; its corner (0.71) is below the plant's
   double sole_margin = 0.005;       ///< corners lie this far inside the sole [m]
   double least_normal_force = 0.5;  ///< per corner [N]
+  double limit_weight = 100.0;      ///< braking of a joint before the end of its range
+  double limit_braking = 200.0;     ///< by this it can be stopped there [rad/s^2]
+  double limit_damping = 100.0;     ///< for a joint that is faster than that [1/s]
+  double limit_return = 400.0;      ///< for a joint beyond its margin [1/s^2]
+  double limit_margin = 0.05;       ///< before the end of the range [rad]
+  double leg_stretch = 0.97;        ///< the CoM sinks rather than let a leg be longer than this
+                                    ///< share of its length
 };
 
 /// Decides accelerations and corner forces of the standing feet together, under the equations of
@@ -65,6 +74,12 @@ class WholeBodyController {
   void add_task(double weight, const Rows& jacobian,
                 const Eigen::Ref<const Eigen::VectorXd>& value);
   void add_com_task(const RigidBody& body, const engine::WalkingTargets& targets);
+  /// Height of the CoM that lets both legs reach where they stand and where they will land [m].
+  double reachable_com_height(const RigidBody& body, const engine::WalkingTargets& targets) const;
+  /// Slows a joint down in time before the end of its range. A task, not a constraint: at the end
+  /// of a range torque limits and contact can leave no solution at all.
+  void add_joint_limit_tasks(const RobotState& state);
+  void add_momentum_task(const RigidBody& body, const engine::WalkingTargets& targets);
   void add_torso_task(const RigidBody& body, const engine::WalkingTargets& targets);
   void add_foot_task(const RigidBody& body, const Foot& foot, const engine::FootTarget& target);
   void find_contacts(const RigidBody& body, const engine::WalkingTargets& targets);
@@ -75,6 +90,7 @@ class WholeBodyController {
   double gravity_ = 9.81;
   std::vector<Body> joints_;  ///< whose motors limit the torques, in joint order
   engine::PerFoot<Foot> feet_;
+  engine::PerFoot<LegGeometry> legs_;
   int torso_body_;
   Eigen::Matrix3d torso_in_body_;
   Eigen::Index nv_;

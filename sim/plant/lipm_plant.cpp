@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/robot/hip_flywheel.h"
+
 namespace stagger::sim {
 
 LipmParameters lipm_parameters(const Robot& robot) {
@@ -14,6 +16,7 @@ LipmParameters lipm_parameters(const Robot& robot) {
   p.sole = {0.5 * d.feet[0].sole.length, 0.5 * d.feet[0].sole.width};
   p.stance_width = d.walk.stance_width_m;
   p.reach = 2.0 * d.walk.max_step_length_m;
+  p.hip = hip_flywheel(robot);
   return p;
 }
 
