@@ -27,6 +27,7 @@ struct HipParameters {
   double inertia = 1.0;  ///< [kg m^2]
   double angle = 0.5;    ///< greatest lean [rad]
   double rate = 1e9;     ///< greatest angular velocity [rad/s]
+  bool in_steps = true;  ///< also beside steps that are adjusted, else only where none are
 };
 
 /// Defaults are the recommended set for the paper's robot on the LIPM (30 kg, CoM at 1 m).

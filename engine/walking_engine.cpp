@@ -420,13 +420,13 @@ void WalkingEngine::use_hip() {
     }
   };
   const bool single = machine_.state() == WalkingState::single_support;
-  if (single && parameters_.strategies.step) {
+  if (single && parameters_.strategies.step && parameters_.hip.in_steps) {
     const double growth = std::exp(omega_ * machine_.single_support_left());
     const StepSituation now = situation(steps_[0]);
     const Vec2 foothold = catching_line(now).foothold(growth);
     const Vec2 local = rotated(foothold - stance_.position, -yaw);
     measure(local, reach_.polygon(stance_.side), Vec2::Zero(), 0.0, now.transfer / growth);
-  } else if (single) {
+  } else if (single && !parameters_.strategies.step) {
     // The ZMP that takes the DCM to where the plan wants it at touchdown; without a step ahead that
     // is the DCM itself. A step that comes is allowed to be met a little off its plan.
     const double decay = std::exp(-omega_ * machine_.single_support_left());
