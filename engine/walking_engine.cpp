@@ -9,6 +9,8 @@ namespace {
 
 /// Steps that may follow the last one of a walk because the feet do not stand side by side.
 constexpr int most_corrections = 2;
+/// The same after a recovery, which leaves them far apart.
+constexpr int most_recovery_corrections = 6;
 
 Footstep footstep(const FootPose& pose, Side side) {
   return {pose.position.head<2>(), pose.yaw, side};
@@ -48,6 +50,7 @@ WalkingEngine::WalkingEngine(const Parameters& parameters, const Measurement& st
       reach_(reach),
       time_reach_(reach.scaled_length(parameters.time_reach)),
       capture_(parameters, reach),
+      recovery_(parameters, reach),
       machine_(parameters),
       lqg_(parameters),
       hip_(parameters.hip, parameters.mass * parameters.gravity, omega_, parameters.tick),
@@ -83,6 +86,7 @@ void WalkingEngine::walk(const WalkCommand& command) {
   std::size_t kept = state == WalkingState::single_support && !machine_.last_step() ? 2 : 1;
   if (state == WalkingState::idle || !machine_.walking()) kept = 0;
   set_pattern(command, kept);
+  recovering_ = false;
   corrections_left_ = 0;
   machine_.start();
 }
@@ -93,7 +97,7 @@ void WalkingEngine::stop() {
   const std::size_t under_way = machine_.state() == WalkingState::single_support ? 1 : 0;
   const std::size_t ahead = machine_.steps_ahead();
   set_pattern({}, std::max(under_way, ahead > 0 ? ahead - 1 : 0));
-  corrections_left_ = most_corrections;
+  corrections_left_ = std::max(corrections_left_, most_corrections);
 }
 
 WalkingEngine::StepListError WalkingEngine::follow(std::span<const Footstep> steps) {
@@ -147,6 +151,7 @@ const WalkingTargets& WalkingEngine::update(const Measurement& measurement) {
     const Vec2 com = measured_.com.head<2>();
     lqg_.estimate(com, com + measured_.com_velocity.head<2>() / omega_);
     estimating_ = true;
+    recover();
   }
 
   const Side swing_side = other(machine_.support_side());
@@ -181,6 +186,27 @@ const WalkingTargets& WalkingEngine::update(const Measurement& measurement) {
   return targets_;
 }
 
+void WalkingEngine::recover() {
+  const Strategies& use = parameters_.strategies;
+  if (!use.step || !machine_.stands() ||
+      !recovery_.needed(lqg_.dcm(), lqg_.dcm_deviation(), measured_.feet, use)) {
+    return;
+  }
+  const Side support = recovery_.support_side(lqg_.dcm(), measured_.feet, use.time);
+  // A walk goes on as commanded. So does a list, if it begins with the foot that has to step.
+  const bool listed = list_next_ < list_size_;
+  if (!machine_.walking() || (listed && list_[list_next_].side == support)) {
+    machine_.stop();
+    set_pattern({}, 0);
+    corrections_left_ = most_recovery_corrections;
+  }
+  recovering_ = true;
+  machine_.recover(support);
+  machine_.set_t_ss(recovery_.step_time(use.time));
+  react(Transition::lift_off);
+  com_reference_ = lqg_.com();
+}
+
 void WalkingEngine::react(Transition transition) {
   const auto measured = [&](Side side) { return footstep(measured_.feet[index(side)], side); };
   switch (transition) {
@@ -205,6 +231,7 @@ void WalkingEngine::react(Transition transition) {
       landed_ = measured(other(machine_.support_side()));
       standing_[index(landed_.side)] = measured_.feet[index(landed_.side)];
       if (list_next_ < list_size_) ++list_next_;
+      recovering_ = recovering_ && machine_.ends_standing();
       if (machine_.closing() && corrections_left_ > 0 && !stands_side_by_side()) {
         --corrections_left_;
         machine_.step_again();
@@ -217,6 +244,7 @@ void WalkingEngine::react(Transition transition) {
       landed_ = measured(other(stance_.side));
       standing_ = measured_.feet;
       begin_rest(plan_.dcm_after(parameters_.tick, omega_));  // from where the reference was going
+      recovering_ = false;
       break;
   }
 }
@@ -365,8 +393,10 @@ void WalkingEngine::adjust_step_time(StepSituation now) {
                                     omega_, time_reach_);  // (12')
     }
   }
-  // (13'), about the nominal time: nothing accumulates.
-  const double share = -std::expm1(-parameters_.tick / parameters_.time_constant);
+  // (13'), about the nominal time: nothing accumulates. The step of a recovery has just been made
+  // up: there is nothing yet to change smoothly.
+  const bool begins = recovering_ && passed == 0.0;
+  const double share = begins ? 1.0 : -std::expm1(-parameters_.tick / parameters_.time_constant);
   machine_.set_t_ss(machine_.t_ss() + share * (wanted - machine_.t_ss()));
 }
 
@@ -443,6 +473,7 @@ void WalkingEngine::publish(const LqgReference& reference) {
   t.t_ss = machine_.t_ss();
   t.t_ds = machine_.t_ds();
   t.step_count = machine_.landings();
+  t.recovering = recovering_;
   t.zmp_reference = reference.zmp;
   t.com_reference = reference.com;
   t.com_velocity_reference = omega_ * (reference.dcm - reference.com);

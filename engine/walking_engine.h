@@ -10,6 +10,7 @@
 #include "engine/measurement.h"
 #include "engine/parameters.h"
 #include "engine/reach.h"
+#include "engine/recovery.h"
 #include "engine/reference.h"
 #include "engine/state_machine.h"
 #include "engine/step_adjuster.h"
@@ -77,6 +78,8 @@ class WalkingEngine {
 
  private:
   bool take(const Measurement& measurement);
+  /// Steps when the robot stands and the DCM is lost otherwise.
+  void recover();
   void react(Transition transition);
   bool stands_side_by_side() const;
   void begin_shift();
@@ -107,6 +110,7 @@ class WalkingEngine {
   ReachRegion reach_;
   ReachRegion time_reach_;  ///< what the step time is adjusted for
   CaptureRegion capture_;
+  Recovery recovery_;
   StateMachine machine_;
   Lqg lqg_;
   HipStrategy hip_;
@@ -120,6 +124,7 @@ class WalkingEngine {
   Measurement measured_;  ///< the newest that was usable, part by part
   bool estimating_ = false;
 
+  bool recovering_ = false;
   int corrections_left_ = 0;  ///< further steps that a walk may take to end side by side
 
   Footstep stance_;               ///< f_i; in double support the foot that the ZMP leaves
