@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/dcm_goal.h"
+#include "engine/lipm.h"
 #include "engine/sole_gap.h"
 #include "engine/step_limits.h"
 
@@ -10,6 +12,9 @@ namespace {
 
 /// So many standard deviations of the estimate may a DCM be wrong.
 constexpr double doubted_deviations = 4.0;
+
+/// Of the soles, what the DCM may need to come to rest.
+constexpr double kept_share = 0.5;
 
 /// The catching foothold runs away with e^{w T}: the speed that the swing foot needs for it, in
 /// proportion to e^{w T} / T, is least for w T = 1. A walk in quick steps takes no slower ones.
@@ -58,6 +63,19 @@ Side Recovery::support_side(const Vec2& dcm, const PerFoot<FootPose>& feet, bool
     return region.polygon(side, free_times).margin(local);
   };
   return margin(Side::left) > margin(Side::right) ? Side::left : Side::right;
+}
+
+bool Recovery::can_stand(const StepSituation& step, double left, double omega) const {
+  const auto pose = [](const Footstep& foot) {
+    return FootPose{Vec3(foot.position.x(), foot.position.y(), 0.0), foot.yaw};
+  };
+  const Sole inner{kept_share * sole_.half_length, kept_share * sole_.half_width};
+  const ConvexPolygon hull = support_polygon(inner, pose(step.stance), pose(step.planned));
+  const ConvexPolygon sole = support_polygon(sole_, pose(step.stance));
+  const DcmGoal goal{&hull, Vec2::Zero(), 0.0, std::exp(omega * left), Vec2::Zero()};
+  const Vec2 zmp = zmp_towards(goal, step.stance.position, step.dcm, sole);
+  constexpr double rounding = 1e-4;  // [m]
+  return hull.margin(dcm_after(step.dcm, zmp, left, omega)) >= -rounding;
 }
 
 }  // namespace stagger::engine

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/capture_region.h"
+#include "engine/step_adjuster.h"
 #include "engine/support_polygon.h"
 
 namespace stagger::engine {
@@ -23,6 +24,11 @@ class Recovery {
   /// The foot from which the DCM is farther inside of what can be saved (less far outside where it
   /// cannot be): that one stands, the other one steps.
   Side support_side(const Vec2& dcm, const PerFoot<FootPose>& feet, bool free_times) const;
+
+  /// Will the robot be able to stand when this step ends its walk? So it is if there is a ZMP in the
+  /// stance sole that, held for the time `left`, takes the DCM into the soles' hull by touchdown.
+  /// Half of each sole is reckoned with there.
+  bool can_stand(const StepSituation& step, double left, double omega) const;
 
   /// Single support of the first step, before adjustment [s].
   double step_time(bool free_times) const { return free_times ? quick_t_ss_ : nominal_t_ss_; }

@@ -348,8 +348,11 @@ void WalkingEngine::adjust() {
     steps_[0] = swing_goal_;
   } else {
     StepSituation now = situation(planned_);
-    if (parameters_.strategies.time) adjust_step_time(now);
-    if (parameters_.strategies.step) {
+    // A last step that lets it stand needs no change, however far the DCM is from its reference.
+    const bool ends_well = parameters_.strategies.ankle && machine_.last_step() &&
+                           recovery_.can_stand(now, machine_.single_support_left(), omega_);
+    if (parameters_.strategies.time && !ends_well) adjust_step_time(now);
+    if (parameters_.strategies.step && !ends_well) {
       const double left = machine_.single_support_left();
       lean_on_ankle(now, left);
       const StepAdjustment adjustment = adjust_step(now, left, omega_, reach_, parameters_);
