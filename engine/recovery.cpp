@@ -14,7 +14,7 @@ namespace {
 constexpr double doubted_deviations = 4.0;
 
 /// Of the soles, what the DCM may need to come to rest.
-constexpr double kept_share = 0.5;
+constexpr double kept_share = 0.8;
 
 /// The catching foothold runs away with e^{w T}: the speed that the swing foot needs for it, in
 /// proportion to e^{w T} / T, is least for w T = 1. A walk in quick steps takes no slower ones.
@@ -65,12 +65,20 @@ Side Recovery::support_side(const Vec2& dcm, const PerFoot<FootPose>& feet, bool
   return margin(Side::left) > margin(Side::right) ? Side::left : Side::right;
 }
 
-bool Recovery::can_stand(const StepSituation& step, double left, double omega) const {
+ConvexPolygon Recovery::standing(const PerFoot<FootPose>& feet) const {
+  return support_polygon({kept_share * sole_.half_length, kept_share * sole_.half_width}, feet[0],
+                         feet[1]);
+}
+
+bool Recovery::can_stand(const Vec2& dcm, const PerFoot<FootPose>& feet) const {
+  return standing(feet).margin(dcm) >= 0.0;
+}
+
+bool Recovery::will_stand(const StepSituation& step, double left, double omega) const {
   const auto pose = [](const Footstep& foot) {
     return FootPose{Vec3(foot.position.x(), foot.position.y(), 0.0), foot.yaw};
   };
-  const Sole inner{kept_share * sole_.half_length, kept_share * sole_.half_width};
-  const ConvexPolygon hull = support_polygon(inner, pose(step.stance), pose(step.planned));
+  const ConvexPolygon hull = standing({pose(step.stance), pose(step.planned)});
   const ConvexPolygon sole = support_polygon(sole_, pose(step.stance));
   const DcmGoal goal{&hull, Vec2::Zero(), 0.0, std::exp(omega * left), Vec2::Zero()};
   const Vec2 zmp = zmp_towards(goal, step.stance.position, step.dcm, sole);

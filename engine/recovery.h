@@ -25,15 +25,21 @@ class Recovery {
   /// cannot be): that one stands, the other one steps.
   Side support_side(const Vec2& dcm, const PerFoot<FootPose>& feet, bool free_times) const;
 
-  /// Will the robot be able to stand when this step ends its walk? So it is if there is a ZMP in the
-  /// stance sole that, held for the time `left`, takes the DCM into the soles' hull by touchdown.
-  /// Half of each sole is reckoned with there.
-  bool can_stand(const StepSituation& step, double left, double omega) const;
+  /// Can it stand on these feet? So it can with the DCM in the hull of the soles, of which a part
+  /// is kept back.
+  bool can_stand(const Vec2& dcm, const PerFoot<FootPose>& feet) const;
+
+  /// Will it be able to stand when this step has landed where it is planned? So it will if some ZMP
+  /// in the stance sole, held for the time `left`, takes the DCM to where it can.
+  bool will_stand(const StepSituation& step, double left, double omega) const;
 
   /// Single support of the first step, before adjustment [s].
   double step_time(bool free_times) const { return free_times ? quick_t_ss_ : nominal_t_ss_; }
 
  private:
+  /// Where the DCM may be for the robot to come to rest on these feet.
+  ConvexPolygon standing(const PerFoot<FootPose>& feet) const;
+
   double nominal_t_ss_;
   double quick_t_ss_;
   Sole sole_;        ///< where the ZMP can be

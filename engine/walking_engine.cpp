@@ -204,6 +204,8 @@ void WalkingEngine::recover() {
   machine_.recover(support);
   machine_.set_t_ss(recovery_.step_time(use.time));
   react(Transition::lift_off);
+  plan_reference();
+  if (use.time) adjust_step_time(situation(steps_[0]), 1.0);
   com_reference_ = lqg_.com();
 }
 
@@ -232,7 +234,9 @@ void WalkingEngine::react(Transition transition) {
       standing_[index(landed_.side)] = measured_.feet[index(landed_.side)];
       if (list_next_ < list_size_) ++list_next_;
       recovering_ = recovering_ && machine_.ends_standing();
-      if (machine_.closing() && corrections_left_ > 0 && !stands_side_by_side()) {
+      // A recovery first comes to rest where it can: from there a correction need not hurry.
+      if (machine_.closing() && corrections_left_ > 0 && !stands_side_by_side() &&
+          !(recovering_ && recovery_.can_stand(lqg_.dcm(), measured_.feet))) {
         --corrections_left_;
         machine_.step_again();
       }
@@ -244,7 +248,11 @@ void WalkingEngine::react(Transition transition) {
       landed_ = measured(other(stance_.side));
       standing_ = measured_.feet;
       begin_rest(plan_.dcm_after(parameters_.tick, omega_));  // from where the reference was going
-      recovering_ = false;
+      recovering_ = recovering_ && corrections_left_ > 0 && !stands_side_by_side();
+      if (recovering_) {
+        --corrections_left_;
+        machine_.start(1);
+      }
       break;
   }
 }
@@ -350,8 +358,9 @@ void WalkingEngine::adjust() {
     StepSituation now = situation(planned_);
     // A last step that lets it stand needs no change, however far the DCM is from its reference.
     const bool ends_well = parameters_.strategies.ankle && machine_.last_step() &&
-                           recovery_.can_stand(now, machine_.single_support_left(), omega_);
-    if (parameters_.strategies.time && !ends_well) adjust_step_time(now);
+                           recovery_.will_stand(now, machine_.single_support_left(), omega_);
+    const double lag = -std::expm1(-parameters_.tick / parameters_.time_constant);
+    if (parameters_.strategies.time && !ends_well) adjust_step_time(now, lag);
     if (parameters_.strategies.step && !ends_well) {
       const double left = machine_.single_support_left();
       lean_on_ankle(now, left);
@@ -382,7 +391,7 @@ void WalkingEngine::lean_on_ankle(StepSituation& now, double left) const {
   if (beyond.squaredNorm() > 0.0) now.ankle = ankle_help(now, beyond, left, omega_, sole_, 1.0);
 }
 
-void WalkingEngine::adjust_step_time(StepSituation now) {
+void WalkingEngine::adjust_step_time(StepSituation now, double share) {
   const double passed = machine_.time();
   const double earliest = std::max({nominal_t_ss_ - parameters_.time_limit, parameters_.least_t_ss,
                                     passed + parameters_.step_freeze});
@@ -396,10 +405,7 @@ void WalkingEngine::adjust_step_time(StepSituation now) {
                                     omega_, time_reach_);  // (12')
     }
   }
-  // (13'), about the nominal time: nothing accumulates. The step of a recovery has just been made
-  // up: there is nothing yet to change smoothly.
-  const bool begins = recovering_ && passed == 0.0;
-  const double share = begins ? 1.0 : -std::expm1(-parameters_.tick / parameters_.time_constant);
+  // (13'), about the nominal time: nothing accumulates.
   machine_.set_t_ss(machine_.t_ss() + share * (wanted - machine_.t_ss()));
 }
 

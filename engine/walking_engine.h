@@ -91,7 +91,8 @@ class WalkingEngine {
   void plan_steps(const Footstep& first_stance, std::size_t first);
   void plan_reference();
   void adjust();
-  void adjust_step_time(StepSituation now);
+  /// Goes `share` of the way to the time that the step should take.
+  void adjust_step_time(StepSituation now, double share);
   /// Fills in the ankle's part of the catch, `left` before touchdown [s].
   void lean_on_ankle(StepSituation& now, double left) const;
   /// `next` is the foothold that plan_ has been made for.
