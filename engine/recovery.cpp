@@ -1,7 +1,9 @@
 #include "engine/recovery.h"
 
 #include <algorithm>
+#include <numbers>
 
+#include "engine/convex_set.h"
 #include "engine/dcm_goal.h"
 #include "engine/lipm.h"
 #include "engine/sole_gap.h"
@@ -32,6 +34,27 @@ double hip_reserve(const Parameters& p) {
   return p.hip.torque / (p.mass * p.gravity) * kept * kept;
 }
 
+ReachRegion rounded(const ReachRegion& reach, double width) {
+  const ConvexPolygon& region = reach.polygon(Side::left);
+  ConvexSet points;
+  for (std::size_t i = 0; i < region.size(); ++i) {
+    const Vec2 corner = region.vertex(i);
+    if (-corner.y() <= width) {
+      points.push_back(corner);
+      continue;
+    }
+    // Three points of the ellipse, as far as the region holds them.
+    for (const double angle : {0.0, 0.25 * std::numbers::pi, 0.5 * std::numbers::pi}) {
+      const Vec2 point(std::cos(angle) * corner.x(),
+                       -width + std::sin(angle) * (corner.y() + width));
+      constexpr double rounding = 1e-9;  // [m]
+      if (region.margin(point) >= -rounding) points.push_back(point);
+    }
+  }
+  const ConvexSet hull = convex_hull(points);
+  return hull.size() < 3 ? reach : ReachRegion(inner_polygon(hull));
+}
+
 }  // namespace
 
 Recovery::Recovery(const Parameters& parameters, const ReachRegion& reach)
@@ -41,8 +64,10 @@ Recovery::Recovery(const Parameters& parameters, const ReachRegion& reach)
             parameters.foot_half_width - parameters.sole_margin},
       whole_sole_(whole_sole(parameters)),
       hip_reserve_(hip_reserve(parameters)),
-      fixed_(parameters, reach),
-      free_(quick_steps(parameters), reach) {}
+      reach_(rounded(reach, parameters.stance_width)),
+      time_reach_(reach_.scaled_length(parameters.time_reach)),
+      fixed_(parameters, reach_),
+      free_(quick_steps(parameters), reach_) {}
 
 bool Recovery::needed(const Vec2& dcm, double deviation, const PerFoot<FootPose>& feet,
                       const Strategies& strategies) const {

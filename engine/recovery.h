@@ -14,6 +14,13 @@ class Recovery {
  public:
   Recovery(const Parameters& parameters, const ReachRegion& reach);
 
+  /// Where the steps of a recovery can land. A step that is both long and wide asks for more of the
+  /// leg than either: from standing there is no time to take the body along, so instead of the
+  /// region's outer corners an ellipse bounds them, about the place of the foot side by side.
+  const ReachRegion& reach() const { return reach_; }
+  /// The part that the step time is adjusted for.
+  const ReachRegion& time_reach() const { return time_reach_; }
+
   /// Is the DCM lost without a step? With the ZMP at its best it comes back from everywhere inside
   /// of the support polygon, and from nowhere outside. It has to be outside by more than the doubt
   /// about it, `deviation` (standard deviation of the estimate [m]), and than what the hips can
@@ -45,6 +52,8 @@ class Recovery {
   Sole sole_;        ///< where the ZMP can be
   Sole whole_sole_;  ///< that must not overlap
   double hip_reserve_;
+  ReachRegion reach_;
+  ReachRegion time_reach_;
   CaptureRegion fixed_;  ///< for nominal_t_ss_
   CaptureRegion free_;   ///< for quick_t_ss_, which may be adjusted
 };

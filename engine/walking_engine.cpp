@@ -364,7 +364,7 @@ void WalkingEngine::adjust() {
     if (parameters_.strategies.step && !ends_well) {
       const double left = machine_.single_support_left();
       lean_on_ankle(now, left);
-      const StepAdjustment adjustment = adjust_step(now, left, omega_, reach_, parameters_);
+      const StepAdjustment adjustment = adjust_step(now, left, omega_, step_reach(), parameters_);
       steps_[0] = adjustment.step;
       adjusting_ = adjustment.adjusted;
     }
@@ -387,7 +387,7 @@ void WalkingEngine::lean_on_ankle(StepSituation& now, double left) const {
                          parameters_.ankle_share);
   // What no step reaches is left to the ankle, too, with all of the sole.
   const Vec2 wanted = now.planned.position + foothold_error(now.planned.position);
-  const Vec2 beyond = wanted - reach_.clamp(now.stance, wanted);
+  const Vec2 beyond = wanted - step_reach().clamp(now.stance, wanted);
   if (beyond.squaredNorm() > 0.0) now.ankle = ankle_help(now, beyond, left, omega_, sole_, 1.0);
 }
 
@@ -400,9 +400,9 @@ void WalkingEngine::adjust_step_time(StepSituation now, double share) {
   double wanted = nominal;
   if (parameters_.strategies.step) {
     lean_on_ankle(now, nominal - passed);
-    if (adjust_step(now, nominal - passed, omega_, reach_, parameters_).adjusted) {
+    if (adjust_step(now, nominal - passed, omega_, step_reach(), parameters_).adjusted) {
       wanted = passed + adjust_time(now, nominal - passed, earliest - passed, latest - passed,
-                                    omega_, time_reach_);  // (12')
+                                    omega_, step_time_reach());  // (12')
     }
   }
   // (13'), about the nominal time: nothing accumulates.

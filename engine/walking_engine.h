@@ -98,6 +98,11 @@ class WalkingEngine {
   /// `next` is the foothold that plan_ has been made for.
   StepSituation situation(const Footstep& next) const;
   DcmGoal goal() const;
+  /// Of the step under way.
+  const ReachRegion& step_reach() const { return recovering_ ? recovery_.reach() : reach_; }
+  const ReachRegion& step_time_reach() const {
+    return recovering_ ? recovery_.time_reach() : time_reach_;
+  }
   void move_swing_foot();
   void use_hip();
   void publish(const LqgReference& reference);
