@@ -352,7 +352,9 @@ StepSituation WalkingEngine::situation(const Footstep& next) const {
 
 void WalkingEngine::adjust() {
   const double planned_t_ss = machine_.t_ss();
-  if (machine_.single_support_left() <= parameters_.step_freeze) {
+  // A recovery may begin with a step shorter than that: its place is found in its first tick.
+  const bool under_way = machine_.time() > 0.0;
+  if (under_way && machine_.single_support_left() <= parameters_.step_freeze) {
     steps_[0] = swing_goal_;
   } else {
     StepSituation now = situation(planned_);

@@ -112,6 +112,12 @@ TEST(RecoveryStep, BeginsAtOnceAndIsTold) {
   EXPECT_EQ(t.step_count, 2U);
 }
 
+TEST(RecoveryStep, MayBeShorterThanItsPlaceIsFrozen) {
+  Parameters p = robot();
+  p.step_freeze = 0.35;  // more than the 0.32 s of a recovery step
+  EXPECT_TRUE(survives(p, {0.5, 0.0}));
+}
+
 TEST(RecoveryStep, DoesNotBeginWhileTheAnkleCanHoldIt) {
   for (int direction = 0; direction < 360; direction += 15) {
     const Vec2 u = towards(direction);
