@@ -56,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(Directions, FullBodyRecovery, ::testing::Range(0, 360, 
 
 TEST_P(FullBodyRecovery, StepsAndStandsAgain) {
   for (const double duration : {0.01, 0.1}) {
-    for (const double speed : {0.4, 0.55}) {
+    for (const double speed : {0.45, 0.55}) {
       const Recovered result = push(GetParam(), speed, duration);
       EXPECT_EQ(result.fall_reason, "") << speed << " m/s in " << duration << " s";
       EXPECT_EQ(result.state, WalkingState::idle) << speed << " m/s in " << duration << " s";
