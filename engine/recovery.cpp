@@ -1,9 +1,8 @@
 #include "engine/recovery.h"
 
 #include <algorithm>
-#include <numbers>
 
-#include "engine/convex_set.h"
+#include "engine/capturability.h"
 #include "engine/dcm_goal.h"
 #include "engine/lipm.h"
 #include "engine/sole_gap.h"
@@ -32,27 +31,6 @@ double hip_reserve(const Parameters& p) {
   const double swing = std::sqrt(p.hip.inertia * p.hip.angle / p.hip.torque);
   const double kept = -std::expm1(-natural_frequency(p) * swing);
   return p.hip.torque / (p.mass * p.gravity) * kept * kept;
-}
-
-ReachRegion rounded(const ReachRegion& reach, double width) {
-  const ConvexPolygon& region = reach.polygon(Side::left);
-  ConvexSet points;
-  for (std::size_t i = 0; i < region.size(); ++i) {
-    const Vec2 corner = region.vertex(i);
-    if (-corner.y() <= width) {
-      points.push_back(corner);
-      continue;
-    }
-    // Three points of the ellipse, as far as the region holds them.
-    for (const double angle : {0.0, 0.25 * std::numbers::pi, 0.5 * std::numbers::pi}) {
-      const Vec2 point(std::cos(angle) * corner.x(),
-                       -width + std::sin(angle) * (corner.y() + width));
-      constexpr double rounding = 1e-9;  // [m]
-      if (region.margin(point) >= -rounding) points.push_back(point);
-    }
-  }
-  const ConvexSet hull = convex_hull(points);
-  return hull.size() < 3 ? reach : ReachRegion(inner_polygon(hull));
 }
 
 }  // namespace
