@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 namespace stagger::engine {
@@ -48,6 +49,27 @@ StepAbility step_ability(const Parameters& p, const ReachRegion& reach, bool fre
     ability.later = p.time_limit;
   }
   return ability;
+}
+
+ReachRegion rounded(const ReachRegion& reach, double width) {
+  const ConvexPolygon& region = reach.polygon(Side::left);
+  ConvexSet points;
+  for (std::size_t i = 0; i < region.size(); ++i) {
+    const Vec2& corner = region.vertex(i);
+    if (-corner.y() <= width) {
+      points.push_back(corner);
+      continue;
+    }
+    // Three points of the ellipse, as far as the region holds them.
+    for (const double angle : {0.0, 0.25 * std::numbers::pi, 0.5 * std::numbers::pi}) {
+      const Vec2 point(std::cos(angle) * corner.x(),
+                       -width + std::sin(angle) * (corner.y() + width));
+      constexpr double rounding = 1e-9;  // [m]
+      if (region.margin(point) >= -rounding) points.push_back(point);
+    }
+  }
+  const ConvexSet hull = convex_hull(points);
+  return hull.size() < 3 ? reach : ReachRegion(inner_polygon(hull));
 }
 
 ConvexSet viable_dcm(const StepAbility& ability) {

@@ -23,6 +23,11 @@ struct StepAbility {
 /// the limits of the step time allow.
 StepAbility step_ability(const Parameters& parameters, const ReachRegion& reach, bool free_times);
 
+/// The same region without its outer corners: of places wider than `width` [m] those inside of an
+/// ellipse (or rather of a polygon inscribed in it) about the place at that width, straight beside
+/// the stance foot. Nothing is added.
+ReachRegion rounded(const ReachRegion& reach, double width);
+
 /// DCM from the stance foot (left) at its lift-off from which a fall can be avoided for ever. The
 /// hull of the true region where step times are free, and exact where they are not: no controller
 /// does better. Throws std::invalid_argument when steps can last no time at all.

@@ -50,6 +50,25 @@ ConvexSet hull_of(const ConvexSet& a, const ConvexSet& b) {
   return convex_hull(std::move(points));
 }
 
+ConvexPolygon inner_polygon(ConvexSet set) {
+  while (set.size() > ConvexPolygon::capacity) {
+    const std::size_t n = set.size();
+    std::size_t least = 0;
+    double least_area = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec2 before = set[(i + n - 1) % n] - set[i];
+      const Vec2 after = set[(i + 1) % n] - set[i];
+      const double area = std::abs(before.x() * after.y() - before.y() * after.x());
+      if (area < least_area) {
+        least_area = area;
+        least = i;
+      }
+    }
+    set.erase(set.begin() + static_cast<std::ptrdiff_t>(least));
+  }
+  return ConvexPolygon(set);
+}
+
 ConvexSet minkowski_sum(const ConvexSet& a, const ConvexSet& b) {
   std::vector<Vec2> points;
   points.reserve(a.size() * b.size());

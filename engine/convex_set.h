@@ -15,6 +15,9 @@ ConvexSet corners(const ConvexPolygon& polygon);
 /// Hull of any points; corners that stick out by no more than a rounding error are left out.
 ConvexSet convex_hull(std::vector<Vec2> points);
 ConvexSet hull_of(const ConvexSet& a, const ConvexSet& b);
+/// Cut down to as many corners as a polygon can have, each time by the one that costs the least
+/// area: nothing is added. At least three corners.
+ConvexPolygon inner_polygon(ConvexSet set);
 /// { a + b }.
 ConvexSet minkowski_sum(const ConvexSet& a, const ConvexSet& b);
 ConvexSet scaled(const ConvexSet& set, double factor);

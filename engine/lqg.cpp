@@ -80,6 +80,7 @@ void Lqg::estimate(const Vec2& com, const Vec2& dcm) {
     covariance_.diagonal().array() += process_;
     integral_.setZero();
     innovation_.setZero();
+    deviation_ = std::sqrt(measurement_);
     started_ = true;
     return;
   }
@@ -96,6 +97,7 @@ void Lqg::estimate(const Vec2& com, const Vec2& dcm) {
   }
   const Eigen::Matrix2d gain = covariance_ * (covariance_ + measurement_ * unit).inverse();
   state_ += (gain * innovation).eval();
+  deviation_ = std::sqrt(gain(1, 1) * measurement_);
   covariance_ = (lipm_.a * (covariance_ - gain * covariance_) * lipm_.a.transpose()).eval();
   covariance_.diagonal().array() += process_;
 }

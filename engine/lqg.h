@@ -43,6 +43,8 @@ class Lqg {
 
   Vec2 com() const { return state_.row(0); }
   Vec2 dcm() const { return state_.row(1); }
+  /// Standard deviation of dcm() after the last measurement, on each axis [m].
+  double dcm_deviation() const { return deviation_; }
   const Eigen::RowVector3d& feedback_gain() const { return feedback_; }
   /// Of the settled filter.
   const Eigen::Matrix2d& estimator_gain() const { return settled_gain_; }
@@ -56,6 +58,7 @@ class Lqg {
   double gate_;
   Eigen::Matrix2d settled_gain_;
   Eigen::Matrix2d covariance_;  ///< of the prediction, the same on both axes
+  double deviation_ = 0.0;
   Eigen::Matrix2d innovation_ = Eigen::Matrix2d::Zero();  ///< averaged; rows CoM, DCM
   Eigen::Matrix2d state_ = Eigen::Matrix2d::Zero();       ///< rows CoM, DCM; columns x, y
   Vec2 integral_ = Vec2::Zero();

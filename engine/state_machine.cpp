@@ -38,6 +38,16 @@ void StateMachine::step_again() {
   steps_left_ = 1;
 }
 
+void StateMachine::recover(Side support) {
+  if (!stands()) return;
+  support_ = support;
+  time_ = 0.0;
+  closing_ = false;
+  enter_single_support();
+  constexpr std::size_t needed = 2;  // one that catches, one that closes
+  steps_left_ = std::max(steps_left_, needed);
+}
+
 std::size_t StateMachine::steps_ahead() const {
   return state_ == WalkingState::idle ? 0 : std::min(steps_left_, preview_steps);
 }

@@ -34,6 +34,9 @@ class StateMachine {
   void stop();
   /// After the last landing: takes a further step before it stands.
   void step_again();
+  /// From standing, Initialize, or a double support that closes: single support on this foot begins
+  /// now. Goes on walking as it was told to, or comes to stand with the step after this one.
+  void recover(Side support);
   /// Durations of the steps that begin from now on [s].
   void set_times(const StepTimes& times) { nominal_ = times; }
   /// Which foot stands first; only while idle.
@@ -62,6 +65,10 @@ class StateMachine {
   bool walking() const { return steps_left_ > 0; }
   /// This double support takes the weight to the middle, to stand.
   bool closing() const { return closing_; }
+  /// Both feet stand, and a step can begin with either.
+  bool stands() const {
+    return closing_ || state_ == WalkingState::idle || state_ == WalkingState::initialize;
+  }
   /// The single support under way ends in standing.
   bool last_step() const { return state_ == WalkingState::single_support && steps_left_ == 1; }
   /// Steps still to be landed, the one under way included; never more than preview_steps.

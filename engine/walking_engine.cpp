@@ -9,6 +9,8 @@ namespace {
 
 /// Steps that may follow the last one of a walk because the feet do not stand side by side.
 constexpr int most_corrections = 2;
+/// The same after a recovery, which leaves them far apart.
+constexpr int most_recovery_corrections = 6;
 
 Footstep footstep(const FootPose& pose, Side side) {
   return {pose.position.head<2>(), pose.yaw, side};
@@ -48,6 +50,7 @@ WalkingEngine::WalkingEngine(const Parameters& parameters, const Measurement& st
       reach_(reach),
       time_reach_(reach.scaled_length(parameters.time_reach)),
       capture_(parameters, reach),
+      recovery_(parameters, reach),
       machine_(parameters),
       lqg_(parameters),
       hip_(parameters.hip, parameters.mass * parameters.gravity, omega_, parameters.tick),
@@ -83,6 +86,7 @@ void WalkingEngine::walk(const WalkCommand& command) {
   std::size_t kept = state == WalkingState::single_support && !machine_.last_step() ? 2 : 1;
   if (state == WalkingState::idle || !machine_.walking()) kept = 0;
   set_pattern(command, kept);
+  recovering_ = false;
   corrections_left_ = 0;
   machine_.start();
 }
@@ -93,7 +97,7 @@ void WalkingEngine::stop() {
   const std::size_t under_way = machine_.state() == WalkingState::single_support ? 1 : 0;
   const std::size_t ahead = machine_.steps_ahead();
   set_pattern({}, std::max(under_way, ahead > 0 ? ahead - 1 : 0));
-  corrections_left_ = most_corrections;
+  corrections_left_ = std::max(corrections_left_, most_corrections);
 }
 
 WalkingEngine::StepListError WalkingEngine::follow(std::span<const Footstep> steps) {
@@ -147,6 +151,7 @@ const WalkingTargets& WalkingEngine::update(const Measurement& measurement) {
     const Vec2 com = measured_.com.head<2>();
     lqg_.estimate(com, com + measured_.com_velocity.head<2>() / omega_);
     estimating_ = true;
+    recover();
   }
 
   const Side swing_side = other(machine_.support_side());
@@ -181,6 +186,29 @@ const WalkingTargets& WalkingEngine::update(const Measurement& measurement) {
   return targets_;
 }
 
+void WalkingEngine::recover() {
+  const Strategies& use = parameters_.strategies;
+  if (!use.step || !machine_.stands() ||
+      !recovery_.needed(lqg_.dcm(), lqg_.dcm_deviation(), measured_.feet, use)) {
+    return;
+  }
+  const Side support = recovery_.support_side(lqg_.dcm(), measured_.feet, use.time);
+  // A walk goes on as commanded. So does a list, if it begins with the foot that has to step.
+  const bool listed = list_next_ < list_size_;
+  if (!machine_.walking() || (listed && list_[list_next_].side == support)) {
+    machine_.stop();
+    set_pattern({}, 0);
+    corrections_left_ = most_recovery_corrections;
+  }
+  recovering_ = true;
+  machine_.recover(support);
+  machine_.set_t_ss(recovery_.step_time(use.time));
+  react(Transition::lift_off);
+  plan_reference();
+  if (use.time) adjust_step_time(situation(steps_[0]), 1.0);
+  com_reference_ = lqg_.com();
+}
+
 void WalkingEngine::react(Transition transition) {
   const auto measured = [&](Side side) { return footstep(measured_.feet[index(side)], side); };
   switch (transition) {
@@ -205,7 +233,10 @@ void WalkingEngine::react(Transition transition) {
       landed_ = measured(other(machine_.support_side()));
       standing_[index(landed_.side)] = measured_.feet[index(landed_.side)];
       if (list_next_ < list_size_) ++list_next_;
-      if (machine_.closing() && corrections_left_ > 0 && !stands_side_by_side()) {
+      recovering_ = recovering_ && machine_.ends_standing();
+      // A recovery first comes to rest where it can: from there a correction need not hurry.
+      if (machine_.closing() && corrections_left_ > 0 && !stands_side_by_side() &&
+          !(recovering_ && recovery_.can_stand(lqg_.dcm(), measured_.feet))) {
         --corrections_left_;
         machine_.step_again();
       }
@@ -217,6 +248,11 @@ void WalkingEngine::react(Transition transition) {
       landed_ = measured(other(stance_.side));
       standing_ = measured_.feet;
       begin_rest(plan_.dcm_after(parameters_.tick, omega_));  // from where the reference was going
+      recovering_ = recovering_ && corrections_left_ > 0 && !stands_side_by_side();
+      if (recovering_) {
+        --corrections_left_;
+        machine_.start(1);
+      }
       break;
   }
 }
@@ -316,15 +352,21 @@ StepSituation WalkingEngine::situation(const Footstep& next) const {
 
 void WalkingEngine::adjust() {
   const double planned_t_ss = machine_.t_ss();
-  if (machine_.single_support_left() <= parameters_.step_freeze) {
+  // A recovery may begin with a step shorter than that: its place is found in its first tick.
+  const bool under_way = machine_.time() > 0.0;
+  if (under_way && machine_.single_support_left() <= parameters_.step_freeze) {
     steps_[0] = swing_goal_;
   } else {
     StepSituation now = situation(planned_);
-    if (parameters_.strategies.time) adjust_step_time(now);
-    if (parameters_.strategies.step) {
+    // A last step that lets it stand needs no change, however far the DCM is from its reference.
+    const bool ends_well = parameters_.strategies.ankle && machine_.last_step() &&
+                           recovery_.will_stand(now, machine_.single_support_left(), omega_);
+    const double lag = -std::expm1(-parameters_.tick / parameters_.time_constant);
+    if (parameters_.strategies.time && !ends_well) adjust_step_time(now, lag);
+    if (parameters_.strategies.step && !ends_well) {
       const double left = machine_.single_support_left();
       lean_on_ankle(now, left);
-      const StepAdjustment adjustment = adjust_step(now, left, omega_, reach_, parameters_);
+      const StepAdjustment adjustment = adjust_step(now, left, omega_, step_reach(), parameters_);
       steps_[0] = adjustment.step;
       adjusting_ = adjustment.adjusted;
     }
@@ -347,11 +389,11 @@ void WalkingEngine::lean_on_ankle(StepSituation& now, double left) const {
                          parameters_.ankle_share);
   // What no step reaches is left to the ankle, too, with all of the sole.
   const Vec2 wanted = now.planned.position + foothold_error(now.planned.position);
-  const Vec2 beyond = wanted - reach_.clamp(now.stance, wanted);
+  const Vec2 beyond = wanted - step_reach().clamp(now.stance, wanted);
   if (beyond.squaredNorm() > 0.0) now.ankle = ankle_help(now, beyond, left, omega_, sole_, 1.0);
 }
 
-void WalkingEngine::adjust_step_time(StepSituation now) {
+void WalkingEngine::adjust_step_time(StepSituation now, double share) {
   const double passed = machine_.time();
   const double earliest = std::max({nominal_t_ss_ - parameters_.time_limit, parameters_.least_t_ss,
                                     passed + parameters_.step_freeze});
@@ -360,13 +402,12 @@ void WalkingEngine::adjust_step_time(StepSituation now) {
   double wanted = nominal;
   if (parameters_.strategies.step) {
     lean_on_ankle(now, nominal - passed);
-    if (adjust_step(now, nominal - passed, omega_, reach_, parameters_).adjusted) {
+    if (adjust_step(now, nominal - passed, omega_, step_reach(), parameters_).adjusted) {
       wanted = passed + adjust_time(now, nominal - passed, earliest - passed, latest - passed,
-                                    omega_, time_reach_);  // (12')
+                                    omega_, step_time_reach());  // (12')
     }
   }
   // (13'), about the nominal time: nothing accumulates.
-  const double share = -std::expm1(-parameters_.tick / parameters_.time_constant);
   machine_.set_t_ss(machine_.t_ss() + share * (wanted - machine_.t_ss()));
 }
 
@@ -459,6 +500,7 @@ void WalkingEngine::publish(const LqgReference& reference) {
   t.t_ss = machine_.t_ss();
   t.t_ds = machine_.t_ds();
   t.step_count = machine_.landings();
+  t.recovering = recovering_;
   t.zmp_reference = reference.zmp;
   t.com_reference = reference.com;
   t.com_velocity_reference = omega_ * (reference.dcm - reference.com);

@@ -10,6 +10,7 @@
 #include "engine/measurement.h"
 #include "engine/parameters.h"
 #include "engine/reach.h"
+#include "engine/recovery.h"
 #include "engine/reference.h"
 #include "engine/state_machine.h"
 #include "engine/step_adjuster.h"
@@ -77,6 +78,8 @@ class WalkingEngine {
 
  private:
   bool take(const Measurement& measurement);
+  /// Steps when the robot stands and the DCM is lost otherwise.
+  void recover();
   void react(Transition transition);
   bool stands_side_by_side() const;
   void begin_shift();
@@ -88,12 +91,18 @@ class WalkingEngine {
   void plan_steps(const Footstep& first_stance, std::size_t first);
   void plan_reference();
   void adjust();
-  void adjust_step_time(StepSituation now);
+  /// Goes `share` of the way to the time that the step should take.
+  void adjust_step_time(StepSituation now, double share);
   /// Fills in the ankle's part of the catch, `left` before touchdown [s].
   void lean_on_ankle(StepSituation& now, double left) const;
   /// `next` is the foothold that plan_ has been made for.
   StepSituation situation(const Footstep& next) const;
   DcmGoal goal() const;
+  /// Of the step under way.
+  const ReachRegion& step_reach() const { return recovering_ ? recovery_.reach() : reach_; }
+  const ReachRegion& step_time_reach() const {
+    return recovering_ ? recovery_.time_reach() : time_reach_;
+  }
   void move_swing_foot();
   void use_hip();
   void publish(const LqgReference& reference);
@@ -107,6 +116,7 @@ class WalkingEngine {
   ReachRegion reach_;
   ReachRegion time_reach_;  ///< what the step time is adjusted for
   CaptureRegion capture_;
+  Recovery recovery_;
   StateMachine machine_;
   Lqg lqg_;
   HipStrategy hip_;
@@ -120,6 +130,7 @@ class WalkingEngine {
   Measurement measured_;  ///< the newest that was usable, part by part
   bool estimating_ = false;
 
+  bool recovering_ = false;
   int corrections_left_ = 0;  ///< further steps that a walk may take to end side by side
 
   Footstep stance_;               ///< f_i; in double support the foot that the ZMP leaves

@@ -26,6 +26,7 @@ struct WalkingTargets {
   double t_ss = 0.0;        ///< single support duration of this step, adjusted [s]
   double t_ds = 0.0;        ///< double support duration of this step [s]
   std::uint64_t step_count = 0;  ///< steps landed since the engine was made
+  bool recovering = false;       ///< it steps because standing would have been a fall
 
   Vec2 zmp_reference = Vec2::Zero();           ///< eq. (1) [m]
   Vec2 com_reference = Vec2::Zero();           ///< [m]

@@ -91,6 +91,9 @@ std::vector<Channel> make_channels(const std::vector<std::string>& joint_names) 
   table.push_back(scalar("t_ss", "s", "single support duration of this step", &Frame::t_ss));
   table.push_back(scalar("t_ds", "s", "double support duration of this step", &Frame::t_ds));
   table.push_back(scalar("step_count", "1", "steps landed", &Frame::step_count));
+  table.push_back(scalar("recovering", "1",
+                         "1 while it steps because standing would have been a fall",
+                         &Frame::recovering));
 
   table.push_back(vector<3>("com", "m", "centre of mass", &Frame::com));
   table.push_back(

@@ -33,6 +33,7 @@ struct Frame {
   double t_ss = 0.0;
   double t_ds = 0.0;
   std::uint64_t step_count = 0;
+  bool recovering = false;
 
   Vec3 com = Vec3::Zero();
   Vec3 com_velocity = Vec3::Zero();

@@ -106,6 +106,7 @@ void Simulation::fill_frame(const engine::WalkingTargets& targets) {
   frame_.t_ss = targets.t_ss;
   frame_.t_ds = targets.t_ds;
   frame_.step_count = targets.step_count;
+  frame_.recovering = targets.recovering;
   frame_.com_reference = targets.com_reference;
   frame_.dcm_reference = targets.dcm_reference;
   frame_.zmp_reference = targets.zmp_reference;

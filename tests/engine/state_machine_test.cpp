@@ -144,6 +144,50 @@ TEST(StateMachine, AFurtherStepCanFollowTheLast) {
   EXPECT_EQ(machine.state(), WalkingState::idle);
 }
 
+TEST(StateMachine, RecoversOnEitherFootAndComesToStand) {
+  const Parameters parameters;
+  for (const Side side : {Side::left, Side::right}) {
+    StateMachine machine(parameters);
+    run(machine, 0.1);
+    machine.recover(side);
+    EXPECT_EQ(machine.state(), WalkingState::single_support);
+    EXPECT_EQ(machine.support_side(), side);
+    EXPECT_EQ(machine.time(), 0.0);
+    run(machine, 5.0);
+    EXPECT_EQ(machine.landings(), 2U);
+    EXPECT_EQ(machine.state(), WalkingState::idle);
+  }
+}
+
+TEST(StateMachine, AWalkGoesOnAfterARecovery) {
+  StateMachine machine{Parameters()};
+  machine.start();
+  run(machine, 0.3);
+  machine.recover(Side::right);
+  EXPECT_EQ(machine.state(), WalkingState::single_support);
+  run(machine, 10.0);
+  EXPECT_EQ(machine.landings(), 10U);
+}
+
+TEST(StateMachine, RecoversFromAClosingDoubleSupportAndFromNoOther) {
+  const Parameters parameters;
+  StateMachine machine(parameters);
+  machine.start(2);
+  run(machine, parameters.t_init + parameters.t_ss + 0.1);
+  ASSERT_EQ(machine.state(), WalkingState::double_support);
+  EXPECT_FALSE(machine.stands());
+  machine.recover(Side::left);
+  EXPECT_EQ(machine.state(), WalkingState::double_support);
+  run(machine, parameters.t_ds + parameters.t_ss);
+  ASSERT_TRUE(machine.stands());
+  machine.recover(Side::left);
+  EXPECT_EQ(machine.state(), WalkingState::single_support);
+  EXPECT_FALSE(machine.closing());
+  run(machine, 5.0);
+  EXPECT_EQ(machine.landings(), 4U);
+  EXPECT_EQ(machine.state(), WalkingState::idle);
+}
+
 TEST(StateMachine, StopDuringTheWeightShiftStandsAtOnce) {
   StateMachine machine{Parameters()};
   machine.start();

@@ -16,6 +16,7 @@ ClosedLoop on_one_foot(double position, double velocity, const StandingSetup& se
   engine::Parameters parameters = paper_parameters(setup.noise);
   parameters.hip = setup.hip;
   parameters.strategies.hip = setup.hip.torque > 0.0;
+  parameters.strategies.step = parameters.strategies.time = false;
   LipmParameters truth = paper_plant(setup.noise, setup.seed, setup.error);
   truth.hip = setup.hip;
   // Both feet in one place are one foot: idle, the engine stands on it.
