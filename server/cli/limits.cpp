@@ -3,8 +3,8 @@
 #include <fstream>
 #include <iomanip>
 #include <iostream>
+#include <numeric>
 #include <sstream>
-#include <thread>
 
 #include "server/cli/cli.h"
 #include "server/cli/commands.h"
@@ -82,7 +82,31 @@ std::vector<double> read_ladder(const LimitsOptions& options) {
   return rungs;
 }
 
+std::vector<std::uint64_t> read_seeds(const LimitsOptions& options) {
+  // Beyond that JSON's numbers are not exact.
+  constexpr std::uint64_t greatest = std::uint64_t{1} << 53;
+  const auto count = static_cast<std::uint64_t>(options.seeds);
+  if (options.seed > greatest - (count - 1)) {
+    throw std::invalid_argument("--seed: " + std::to_string(options.seed) +
+                                " is not a number from 0 to " +
+                                std::to_string(greatest - (count - 1)) + " (2^53 less --seeds)");
+  }
+  std::vector<std::uint64_t> seeds(count);
+  std::iota(seeds.begin(), seeds.end(), options.seed);
+  return seeds;
+}
+
+/// Nobody looks any more once the observation is over.
+void check_times(const LimitsOptions& options) {
+  if (options.recover_s <= options.observe_s) return;
+  std::ostringstream text;
+  text << "--recover-s: " << options.recover_s << " is not a number from 0 to " << options.observe_s
+       << " s (--observe-s)";
+  throw std::invalid_argument(text.str());
+}
+
 sim::LimitsSpec spec_of(const LimitsOptions& options, const sim::Robot& robot) {
+  check_times(options);
   sim::LimitsSpec spec;
   spec.trial.robot = options.robot;
   spec.trial.plant = plant_of(options.plant).value_or(sim::PlantKind::bullet);
@@ -94,14 +118,14 @@ sim::LimitsSpec spec_of(const LimitsOptions& options, const sim::Robot& robot) {
   sim::PushSpec push;
   push.link = options.link.empty() ? robot.description.torso : options.link;
   if (const auto wrong = check_link(push.link, robot)) {
-    throw std::invalid_argument("--link: " + *wrong);
+    throw std::invalid_argument("--link " + *wrong);
   }
   spec.trial.push = push;
   if (options.leg != "left") {
     spec.leg = options.leg == "right" ? std::optional(sim::Side::right) : std::nullopt;
   }
   spec.rungs = read_ladder(options);
-  for (int i = 0; i < options.seeds; ++i) spec.seeds.push_back(options.seed + i);
+  spec.seeds = read_seeds(options);
   const auto directions = read_number_list("--directions", options.directions,
                                            Range::between(-360.0, 360.0, "degrees"));
   const auto durations =
@@ -164,13 +188,14 @@ int limits_command(const LimitsOptions& options, const Folders& folders) {
   {
     ProgressLine line(options.quiet);
     try {
-      const unsigned threads =
-          options.threads > 0 ? options.threads : std::thread::hardware_concurrency();
-      limits = sim::find_limits(spec, robot, threads, [&](const sim::LimitsProgress& progress) {
+      sim::LimitsRun run;
+      if (options.threads > 0) run.threads = options.threads;
+      run.watch = [&](const sim::LimitsProgress& progress) {
         last = progress;
         line.show(progress);
         return interrupted == 0;
-      });
+      };
+      limits = sim::find_limits(spec, robot, run);
     } catch (const sim::LimitsStopped&) {
       line.clear();
       std::cerr << "stagger: stopped at " << last.rung << " m/s after " << last.trials

@@ -19,7 +19,7 @@ constexpr std::size_t bar_width = 20;
 
 std::string progress_text(const sim::LimitsProgress& progress, double elapsed_s) {
   const auto done = static_cast<double>(progress.trials);
-  const auto left = static_cast<double>(progress.at_most);
+  const auto left = static_cast<double>(progress.left);
   const double share = done / std::max(done + left, 1.0);
   const auto filled = static_cast<std::size_t>(share * static_cast<double>(bar_width));
   const auto seconds = static_cast<long>(std::ceil(elapsed_s / std::max(done, 1.0) * left));

@@ -19,26 +19,25 @@ constexpr std::size_t probe_seeds = 2;
 /// Counts trials and tells the watcher.
 class Progress {
  public:
-  explicit Progress(const LimitsWatcher& watcher) : watcher_(watcher) {}
+  explicit Progress(const LimitsRun& run) : run_(run) {}
 
-  /// So many trials come next, and so many after them at most.
-  void begin(double rung, std::size_t open_cells, std::size_t next, std::size_t later) {
+  void begin(double rung, std::size_t open_cells, std::size_t left) {
     now_.rung = rung;
     now_.open_cells = open_cells;
-    now_.at_most = next + later;
+    now_.left = left;
   }
 
-  /// One is over, or was not needed.
+  /// One trial is over, or turned out not to be needed.
   void count(bool was_run) {
     const std::lock_guard lock(mutex_);
-    --now_.at_most;
+    --now_.left;
     if (!was_run) return;
     ++now_.trials;
-    if (watcher_ && !watcher_(now_)) throw LimitsStopped("stopped");
+    if (run_.watch && !run_.watch(now_)) throw LimitsStopped("stopped");
   }
 
  private:
-  const LimitsWatcher& watcher_;
+  const LimitsRun& run_;
   std::mutex mutex_;
   LimitsProgress now_;
 };
@@ -46,9 +45,8 @@ class Progress {
 /// All cells on their way up the ladder.
 class Search {
  public:
-  Search(const LimitsSpec& spec, const std::shared_ptr<const Robot>& robot, unsigned threads,
-         const LimitsWatcher& watcher)
-      : spec_(spec), robot_(robot), threads_(threads), progress_(watcher) {
+  Search(const LimitsSpec& spec, const std::shared_ptr<const Robot>& robot, const LimitsRun& run)
+      : spec_(spec), robot_(robot), run_(run), progress_(run) {
     for (const LimitCell& cell : spec.cells) {
       Limit limit;
       limit.cell = cell;
@@ -59,18 +57,17 @@ class Search {
   }
 
   std::vector<Limit> climb() {
-    const std::size_t probe = std::min(probe_seeds, spec_.seeds.size());
     for (rung_ = 0; rung_ < spec_.rungs.size(); ++rung_) {
       const std::vector<std::size_t> open = open_cells();
-      const auto hashes = try_seeds(open, 0, probe);
+      const auto hashes = try_seeds(open, 0, probe_);
       std::vector<std::size_t> unlike;
       for (std::size_t i = 0; i < open.size(); ++i) {
         Limit& limit = limits_[open[i]];
-        if (limit.fail_dv || hashes[i * probe] == hashes[i * probe + probe - 1]) continue;
+        if (limit.fail_dv || hashes[i * probe_] == hashes[(i + 1) * probe_ - 1]) continue;
         limit.seeds_alike = false;
         unlike.push_back(open[i]);
       }
-      try_seeds(unlike, probe, spec_.seeds.size());
+      try_seeds(unlike, probe_, spec_.seeds.size());
       for (const std::size_t cell : open_cells()) limits_[cell].pass_dv = spec_.rungs[rung_];
     }
     return std::move(limits_);
@@ -83,6 +80,20 @@ class Search {
       if (!limits_[i].fail_dv) open.push_back(i);
     }
     return open;
+  }
+
+  /// Trials that come after those of seeds `first` on at this rung.
+  std::size_t left_after(std::size_t first) const {
+    const std::size_t all = spec_.seeds.size();
+    const bool rest_to_come = first == 0;
+    std::size_t left = 0;
+    for (const std::size_t cell : open_cells()) {
+      // Nothing is known yet of seeds that were never tried.
+      const bool alike = limits_[cell].seeds_alike && limits_[cell].pass_dv;
+      const std::size_t each = alike ? probe_ : all;
+      left += (spec_.rungs.size() - rung_ - 1) * each + (rest_to_come ? each - probe_ : 0);
+    }
+    return left;
   }
 
   /// Tries these cells with the seeds [first, last) at the present rung and notes what fails.
@@ -101,9 +112,7 @@ class Search {
     for (const std::size_t cell : cells) {
       for (std::size_t seed = first; seed < last; ++seed) jobs.push_back({cell, seed});
     }
-    const std::size_t rungs_left = spec_.rungs.size() - rung_ - 1;
-    progress_.begin(spec_.rungs[rung_], cells.size(), jobs.size(),
-                    rungs_left * cells.size() * spec_.seeds.size());
+    progress_.begin(spec_.rungs[rung_], open_cells().size(), jobs.size() + left_after(first));
 
     // The first seed that fails decides: those after it need not be tried, those before it must be.
     std::vector<std::atomic<std::size_t>> first_failed(limits_.size());
@@ -115,10 +124,9 @@ class Search {
         progress_.count(false);
         return outcome;
       }
-      const TrialResult result =
-          run_trial(trial_of(spec_, spec_.cells[job.cell], spec_.rungs[rung_],
-                             spec_.seeds[job.seed], *robot_),
-                    robot_);
+      const TrialSpec trial = trial_of(spec_, spec_.cells[job.cell], spec_.rungs[rung_],
+                                       spec_.seeds[job.seed], *robot_);
+      const TrialResult result = run_.trial ? run_.trial(trial) : run_trial(trial, robot_);
       outcome.failure = failure_of(result, spec_.recover_within_s);
       outcome.hash = result.state_hash;
       std::size_t present = lowest;
@@ -128,7 +136,7 @@ class Search {
       progress_.count(true);
       return outcome;
     };
-    const auto outcomes = parallel_map(jobs, try_one, threads_);
+    const auto outcomes = parallel_map(jobs, try_one, run_.threads);
 
     std::vector<std::uint64_t> hashes;
     hashes.reserve(jobs.size());
@@ -145,8 +153,9 @@ class Search {
 
   const LimitsSpec& spec_;
   const std::shared_ptr<const Robot>& robot_;
-  unsigned threads_;
+  const LimitsRun& run_;
   Progress progress_;
+  std::size_t probe_ = std::min(probe_seeds, spec_.seeds.size());
   std::vector<Limit> limits_;
   std::size_t rung_ = 0;
 };
@@ -196,8 +205,8 @@ std::string failure_of(const TrialResult& result, double recover_within_s) {
 }
 
 std::vector<Limit> find_limits(const LimitsSpec& spec, const std::shared_ptr<const Robot>& robot,
-                               unsigned threads, const LimitsWatcher& watcher) {
-  return Search(spec, robot, threads, watcher).climb();
+                               const LimitsRun& run) {
+  return Search(spec, robot, run).climb();
 }
 
 }  // namespace stagger::sim

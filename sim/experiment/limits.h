@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "sim/experiment/trial.h"
@@ -53,11 +54,18 @@ struct LimitsProgress {
   double rung = 0.0;           ///< being tried [m/s]
   std::size_t open_cells = 0;  ///< in which no seed has failed yet
   std::size_t trials = 0;      ///< that were run so far
-  std::size_t at_most = 0;     ///< trials still to come, if no more cells fail
+  /// Trials still to come if no more cells fail, and if seeds that moved alike go on doing so.
+  std::size_t left = 0;
 };
 
-/// Called after each trial, from any of the threads but never by two at a time. False: stop.
-using LimitsWatcher = std::function<bool(const LimitsProgress&)>;
+/// How a search is run; none of it changes what is found.
+struct LimitsRun {
+  unsigned threads = std::thread::hardware_concurrency();
+  /// Called after each trial, from any of the threads but never by two at a time. False: stop.
+  std::function<bool(const LimitsProgress&)> watch;
+  /// In place of run_trial() when not empty; called by many threads at a time.
+  std::function<TrialResult(const TrialSpec&)> trial;
+};
 
 /// The watcher wanted no more.
 class LimitsStopped : public std::runtime_error {
@@ -77,6 +85,6 @@ std::string failure_of(const TrialResult& result, double recover_within_s);
 /// up the rungs together; a cell ends at the first rung with a seed that fails. The seeds after
 /// that one, and the rungs above, count for nothing. Throws LimitsStopped.
 std::vector<Limit> find_limits(const LimitsSpec& spec, const std::shared_ptr<const Robot>& robot,
-                               unsigned threads, const LimitsWatcher& watcher = {});
+                               const LimitsRun& run = {});
 
 }  // namespace stagger::sim
