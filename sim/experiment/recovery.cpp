@@ -1,14 +1,13 @@
 #include "sim/experiment/recovery.h"
 
-#include <algorithm>
-
 namespace stagger::sim {
 
 void Recovery::look(const Frame& frame) {
   next_ = frame.tick + 1;
   const bool as_told = (frame.state == WalkingState::idle) == stand_;
   const bool near = (frame.dcm - frame.dcm_reference).norm() <= recovery_tolerance;
-  if (!as_told || !near) back_ = next_;
+  const Vec2 adjustment = frame.adjusted_step.position - frame.planned_step.position;
+  if (!as_told || !near || adjustment.norm() > recovery_tolerance) back_ = next_;
 }
 
 void Recovery::take(const std::vector<Event>& events) {
@@ -16,9 +15,7 @@ void Recovery::take(const std::vector<Event>& events) {
     if (event.kind != EventKind::step) continue;
     ++steps_;
     for (const auto& [name, value] : event.values) {
-      if (name != "adjustment" || value <= recovery_tolerance) continue;
-      last_recovery_ = steps_;
-      back_ = std::max(back_, event.tick);
+      if (name == "adjustment" && value > recovery_tolerance) last_recovery_ = steps_;
     }
   }
 }

@@ -13,10 +13,10 @@ namespace stagger::sim {
 /// this from its reference is not back yet [m]. An undisturbed walk stays within 4 mm.
 inline constexpr double recovery_tolerance = 0.03;
 
-/// Watches a robot from its push on. It is back once no recovery step lands any more, the measured
-/// DCM stays near its reference, and the state is what was commanded: idle or not. The reference is
-/// laid through the feet as they landed, with steps of the commanded velocity: a robot that follows
-/// it and lands its steps as planned walks as commanded.
+/// Watches a robot from its push on. It is back once no recovery step is under way any more, the
+/// measured DCM stays near its reference, and the state is what was commanded: idle or not. The
+/// reference is laid through the feet as they landed, with steps of the commanded velocity: a robot
+/// that follows it and takes its steps as planned walks as commanded.
 class Recovery {
  public:
   /// `stand`: the robot is to stand, not to walk.
@@ -24,7 +24,7 @@ class Recovery {
 
   /// Looks at the tick that has just been run.
   void look(const Frame& frame);
-  /// Takes all events since the push began.
+  /// Counts the steps of all events since the push began.
   void take(const std::vector<Event>& events);
 
   /// Steps since the push began until the last recovery step; 0: there was none.

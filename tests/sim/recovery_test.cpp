@@ -36,11 +36,21 @@ TEST(Recovery, IsBackAfterTheLastTickThatTheDcmWasAway) {
   EXPECT_EQ(recovery.back_tick(), 13U);
 }
 
-TEST(Recovery, IsNotBackBeforeTheLastRecoveryStepLands) {
+TEST(Recovery, IsNotBackWhileARecoveryStepIsUnderWay) {
   Recovery recovery(false);
-  for (std::uint64_t i = 10; i < 100; ++i) recovery.look(frame(i, i < 20 ? 0.1 : 0.0));
+  Frame stepping = frame(10, 0.0);
+  stepping.adjusted_step.position = {0.04, 0.0};
+  recovery.look(stepping);
+  EXPECT_FALSE(recovery.back_tick());
+  stepping.tick = 11;
+  stepping.planned_step.position = {0.02, 0.0};
+  recovery.look(stepping);
+  EXPECT_EQ(recovery.back_tick(), 11U);
+}
+
+TEST(Recovery, CountsTheStepsToTheLastRecoveryStep) {
+  Recovery recovery(false);
   recovery.take({step(15, 0.2), step(50, 0.04), step(90, 0.001)});
-  EXPECT_EQ(recovery.back_tick(), 50U);
   EXPECT_EQ(recovery.steps(), 2U);
 }
 
