@@ -31,18 +31,12 @@ std::string progress_text(const sim::LimitsProgress& progress, double elapsed_s)
   return text;
 }
 
-ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {
-  if (!terminal_) next_ += plain_pause;  // a short search need not say anything
-}
+ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
 
 void ProgressLine::show(const sim::LimitsProgress& progress) {
   const auto now = Clock::now();
   if (quiet_ || now < next_) return;
-  if (terminal_) {
-    next_ = now + terminal_pause;
-  } else {
-    next_ = now + plain_pause;
-  }
+  next_ = now + (terminal_ ? Clock::duration(terminal_pause) : Clock::duration(plain_pause));
   const std::chrono::duration<double> elapsed = now - start_;
   const std::string text = progress_text(progress, elapsed.count());
   // The escape sequence clears the rest of the line.
