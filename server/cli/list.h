@@ -14,7 +14,7 @@ namespace stagger::server {
 std::vector<double> read_number_list(const std::string& option, const std::string& text,
                                      const sim::Range& range);
 
-/// The parts of `text` between the commas.
+/// The parts of `text` between the separators, empty ones too.
 std::vector<std::string> split(const std::string& text, char separator);
 
 /// One number of that option, within the range.
