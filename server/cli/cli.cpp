@@ -34,6 +34,64 @@ void add_world(CLI::App& command, std::string& robot, std::string& plant, std::u
       ->capture_default_str();
 }
 
+void add_walk(CLI::App& command, engine::WalkCommand& walk) {
+  command.add_option("--vx", walk.vx, "Forward [m/s]")->check(between(-0.5, 0.5));
+  command.add_option("--vy", walk.vy, "To the left [m/s]")->check(between(-0.3, 0.3));
+  command.add_option("--wz", walk.wz, "Turn to the left [rad/s]")->check(between(-0.5, 0.5));
+}
+
+CLI::App* add_limits(CLI::App& app, LimitsOptions& limits) {
+  CLI::App* command = app.add_subcommand("limits", "Find how hard a push a robot takes");
+  add_world(*command, limits.robot, limits.plant, limits.seed);
+  command->get_option("--robot")->required();
+  command->get_option("--seed")->description("First seed");
+  command->add_option("--seeds", limits.seeds, "How many seeds all have to pass")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  const auto list = [&](const char* name, std::string& text, const char* about) {
+    command->add_option(name, text, about)->capture_default_str();
+  };
+  list("--directions", limits.directions, "0 forward, 90 to the left: a,b,... or FROM:TO:STEP");
+  list("--phases", limits.phases, "Shares of single support that have passed, and standing");
+  list("--durations", limits.durations, "Of the push [s]");
+  list("--strategies", limits.strategies, "Of ankle, step and time; or none");
+  command->add_option("--leg", limits.leg, "Which leg stands at the phase")
+      ->check(CLI::IsMember({"left", "right", "either"}))
+      ->capture_default_str();
+  command->add_option("--link", limits.link, "Link whose centre of mass is pushed (torso)");
+  add_walk(*command, limits.walk);
+
+  const auto number = [&](const char* name, double& value, double least, double most,
+                          const char* about) {
+    command->add_option(name, value, about)->check(between(least, most))->capture_default_str();
+  };
+  number("--from", limits.from, 0.001, 5.0, "Lowest delta-v tried [m/s]");
+  number("--to", limits.to, 0.001, 5.0, "Highest delta-v tried [m/s]");
+  number("--step", limits.step, 0.001, 5.0, "From one delta-v to the next [m/s]");
+  command->add_option("--gate", limits.gate, "Go up to this delta-v; exit code 1 when one fails")
+      ->check(between(0.001, 5.0))
+      ->excludes("--to");
+  number("--settle-s", limits.settle_s, 0.0, 60.0, "Before the push [s]");
+  number("--observe-s", limits.observe_s, 0.0, 60.0, "After the push: still up then [s]");
+  number("--recover-s", limits.recover_s, 0.0, 60.0,
+         "After the push: back at the gait by then [s]");
+
+  command->add_option("--threads", limits.threads, "0: one for each core")
+      ->check(CLI::Range(0, 1024));
+  command->add_flag("--json", limits.json, "Print one JSON object");
+  command->add_option("--out", limits.out, "File to write the JSON to");
+  command->add_option("--markdown", limits.markdown, "File to write a page of tables to");
+  command->add_flag("--quiet", limits.quiet, "Do not tell how far it is");
+  return command;
+}
+
+/// The command line as it was typed, without the way to the program.
+std::string typed(int argc, char** argv) {
+  std::string text = "stagger";
+  for (int i = 1; i < argc; ++i) text += std::string(" ") + argv[i];
+  return text;
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
@@ -71,15 +129,17 @@ int run_command_line(int argc, char** argv) {
   run_app->add_option("--seconds", run.seconds, "Simulated time [s]")
       ->check(between(0.001, 86400.0))
       ->capture_default_str();
-  run_app->add_option("--vx", run.walk.vx, "Forward [m/s]")->check(between(-0.5, 0.5));
-  run_app->add_option("--vy", run.walk.vy, "To the left [m/s]")->check(between(-0.3, 0.3));
-  run_app->add_option("--wz", run.walk.wz, "Turn to the left [rad/s]")->check(between(-0.5, 0.5));
+  add_walk(*run_app, run.walk);
   run_app->add_flag("--json", run.json, "Print one JSON object");
 
   TrialOptions trial;
   CLI::App* trial_app = app.add_subcommand("trial", "Run one push trial");
   trial_app->add_option("spec", trial.spec, "Trial specification (JSON), or - for standard input")
       ->required();
+
+  LimitsOptions limits;
+  CLI::App* limits_app = add_limits(app, limits);
+  limits.command = typed(argc, argv);
 
   RobotsOptions robots;
   CLI::App* robots_app = app.add_subcommand("robots", "List the robots");
@@ -118,6 +178,7 @@ int run_command_line(int argc, char** argv) {
     if (serve_app->parsed()) return serve_command(serve, folders);
     if (run_app->parsed()) return run_command(run, folders);
     if (trial_app->parsed()) return trial_command(trial, folders);
+    if (limits_app->parsed()) return limits_command(limits, folders);
     return robots_command(robots, folders);
   } catch (const std::exception& error) {
     std::cerr << "stagger: " << error.what() << '\n';

@@ -51,6 +51,33 @@ struct PaperOptions {
   std::optional<double> direction_deg;  ///< 0 forward, 90 to the left
 };
 
+struct LimitsOptions {
+  std::string robot;
+  std::string plant = "bullet";
+  std::uint64_t seed = 1;  ///< the first of them
+  int seeds = 20;
+  std::string directions = "0:315:45";  ///< list [degrees]
+  std::string phases = "0.1,0.35,0.6,0.85";
+  std::string leg = "left";
+  std::string durations = "0.01";  ///< list [s]
+  std::string strategies = "ankle,step,time";
+  std::string link;  ///< empty: the robot's torso
+  engine::WalkCommand walk;
+  double from = 0.1;           ///< lowest rung [m/s]
+  double to = 1.2;             ///< highest rung [m/s]
+  double step = 0.05;          ///< between two rungs [m/s]
+  std::optional<double> gate;  ///< in place of `to`: all have to pass [m/s]
+  double settle_s = 3.0;
+  double observe_s = 6.0;
+  double recover_s = 4.0;
+  unsigned threads = 0;  ///< 0: one a core
+  bool json = false;
+  bool quiet = false;
+  std::string out;       ///< file for the JSON; empty: none
+  std::string markdown;  ///< file for the page; empty: none
+  std::string command;   ///< as it was typed, for the page
+};
+
 /// Serves the dashboard, the API and the stream until SIGTERM or SIGINT.
 int serve_command(const ServeOptions& options, const Folders& folders);
 /// Walks without a server, as fast as possible.
@@ -61,5 +88,8 @@ int trial_command(const TrialOptions& options, const Folders& folders);
 int robots_command(const RobotsOptions& options, const Folders& folders);
 /// The paper's experiments beside what it publishes and beside the ceilings.
 int paper_command(const PaperOptions& options);
+
+/// Push limits of a robot over directions, phases and durations.
+int limits_command(const LimitsOptions& options, const Folders& folders);
 
 }  // namespace stagger::server

@@ -1,6 +1,5 @@
 #include "server/json/push_json.h"
 
-#include <cmath>
 #include <numbers>
 
 namespace stagger::server {
@@ -14,19 +13,6 @@ constexpr double max_force = 20000.0;  // [N]; 200 N s within the shortest durat
 
 Range impulse_range() { return Range::more_than_up_to(0.0, max_impulse, "N s"); }
 
-// Exact at the quarters, where cos(pi/2) would leave 6e-17.
-sim::Vec3 horizontal_direction(double degrees) {
-  const double quarters = degrees / 90.0;
-  if (quarters == std::floor(quarters)) {
-    const int quarter = ((static_cast<int>(quarters) % 4) + 4) % 4;
-    constexpr double cosines[] = {1.0, 0.0, -1.0, 0.0};
-    constexpr double sines[] = {0.0, 1.0, 0.0, -1.0};
-    return {cosines[quarter], sines[quarter], 0.0};
-  }
-  const double angle = degrees * std::numbers::pi / 180.0;
-  return {std::cos(angle), std::sin(angle), 0.0};
-}
-
 sim::Vec3 read_direction(sim::JsonReader& reader) {
   const auto degrees =
       reader.optional_number("direction_deg", Range::between(-360.0, 360.0, "degrees"));
@@ -34,7 +20,7 @@ sim::Vec3 read_direction(sim::JsonReader& reader) {
   if (degrees && vector) {
     reader.refuse("direction", "cannot be given together with direction_deg");
   } else if (degrees) {
-    return horizontal_direction(*degrees);
+    return sim::horizontal_direction(*degrees);
   } else if (vector) {
     const double length = vector->norm();
     if (length < 1e-9) {

@@ -31,6 +31,10 @@ sim::TrialSpec read_trial(const nlohmann::json& body, sim::JsonErrors& errors) {
     spec.plant = read_plant(reader).value_or(spec.plant);
     spec.seed = read_seed(reader).value_or(spec.seed);
     reader.optional_object("walk", [&](sim::JsonReader& walk) { spec.walk = read_walk(walk); });
+    spec.stand = reader.boolean_or("stand", spec.stand);
+    if (spec.stand && (spec.walk.vx != 0.0 || spec.walk.vy != 0.0 || spec.walk.wz != 0.0)) {
+      reader.refuse("stand", "is true; allowed: false, or a walk of velocity 0");
+    }
     spec.strategies = read_strategy_names(reader, "strategies").value_or(spec.strategies);
     spec.settle_s = reader.number_or("settle_s", spec.settle_s, Range::between(0.0, 60.0, "s"));
     spec.observe_s = reader.number_or("observe_s", spec.observe_s, Range::between(0.0, 60.0, "s"));
@@ -40,13 +44,10 @@ sim::TrialSpec read_trial(const nlohmann::json& body, sim::JsonErrors& errors) {
 }
 
 Json trial_spec_json(const sim::TrialSpec& spec) {
-  Json json{{"robot", spec.robot},
-            {"plant", name_of(spec.plant)},
-            {"seed", spec.seed},
-            {"walk", walk_json(spec.walk)},
-            {"strategies", strategy_names_json(spec.strategies)},
-            {"settle_s", spec.settle_s},
-            {"observe_s", spec.observe_s}};
+  Json json{{"robot", spec.robot},       {"plant", name_of(spec.plant)},
+            {"seed", spec.seed},         {"walk", walk_json(spec.walk)},
+            {"stand", spec.stand},       {"strategies", strategy_names_json(spec.strategies)},
+            {"settle_s", spec.settle_s}, {"observe_s", spec.observe_s}};
   if (spec.push) json["push"] = push_spec_json(*spec.push);
   return json;
 }
@@ -56,6 +57,7 @@ Json trial_result_json(const sim::TrialResult& result, const sim::TrialSpec& spe
           {"reason", result.reason},
           {"delivered_ns", result.delivered_ns},
           {"steps_to_recover", or_null(result.steps_to_recover)},
+          {"recovery_time_s", or_null(result.recovery_time_s)},
           {"fall_time_s", or_null(result.fall_time_s)},
           {"push_tick", or_null(result.push_tick)},
           {"worst_dcm_error_m", result.worst_dcm_error_m},

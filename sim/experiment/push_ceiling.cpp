@@ -5,20 +5,20 @@
 
 namespace stagger::sim {
 
-using engine::ConvexSet;
+double delta_v_ceiling(const engine::ConvexSet& viable, const engine::Vec2& dcm,
+                       const engine::Vec2& direction, double duration, double omega) {
+  // Seen from its end, the push is a shift of the DCM at its beginning, whatever the ZMP does:
+  // F / (m w^2) (1 - e^{-w d}), with F d / m the change of velocity.
+  const double shift = -std::expm1(-omega * duration) / (omega * omega * duration);
+  return engine::ray_exit(engine::shifted(viable, -dcm), direction) / shift;
+}
 
 double push_ceiling(const engine::StepAbility& ability, const CeilingPush& push) {
-  const double left = push.t_left - push.duration;
-  const double earliest = std::max(left - ability.sooner, 0.0);
-  const ConvexSet after =
-      engine::viable_dcm(ability, earliest, std::max(left + ability.later, earliest));
-  // zeta' = E zeta - (E - 1) p + (E - 1) / (m w^2) F with E = e^{w duration}.
-  const double growth = std::expm1(ability.omega * push.duration);
-  const ConvexSet jump =
-      engine::shifted(engine::minkowski_sum(after, engine::scaled(ability.sole, growth)),
-                      -(1.0 + growth) * push.dcm);
-  return engine::ray_exit(jump, push.direction) * push.mass * ability.omega * ability.omega /
-         growth;
+  const double earliest = std::max(push.t_left - ability.sooner, push.duration);
+  const double latest = std::max(push.t_left + ability.later, earliest);
+  return delta_v_ceiling(engine::viable_dcm(ability, earliest, latest), push.dcm, push.direction,
+                         push.duration, ability.omega) *
+         push.mass / push.duration;
 }
 
 }  // namespace stagger::sim

@@ -15,7 +15,14 @@ struct CeilingPush {
 };
 
 /// Greatest force [N] of this push after which a fall can be avoided; the ZMP is free inside the
-/// sole during the push as well.
+/// sole during the push as well. The foot does not land before the push is over.
 double push_ceiling(const engine::StepAbility& ability, const CeilingPush& push);
+
+/// Greatest change of velocity [m/s] that a constant force may give to the CoM along `direction`
+/// within `duration`, from `dcm` on, so that a fall can be avoided; `viable` holds the DCMs from
+/// which it could be without the push. Whatever the walker does meanwhile, landings included.
+/// Negative: not even without a push.
+double delta_v_ceiling(const engine::ConvexSet& viable, const engine::Vec2& dcm,
+                       const engine::Vec2& direction, double duration, double omega);
 
 }  // namespace stagger::sim

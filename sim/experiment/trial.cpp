@@ -1,14 +1,14 @@
 #include "sim/experiment/trial.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "sim/experiment/recovery.h"
 #include "sim/simulation.h"
 
 namespace stagger::sim {
 namespace {
 
-/// A step that lands farther than this from its plan is a recovery step [m].
-constexpr double recovery_step = 0.03;
 /// How long a push may wait for its phase or time beyond the settling [s].
 constexpr double trigger_patience_s = 10.0;
 
@@ -16,27 +16,11 @@ std::uint64_t ticks_of(double seconds) {
   return static_cast<std::uint64_t>(std::llround(seconds / Simulation::tick_s));
 }
 
-/// Counts the steps since the push began, and which of them was the last recovery step.
-struct RecoveryCount {
-  std::uint64_t steps = 0;
-  std::uint64_t last_recovery = 0;
-
-  void take(const std::vector<Event>& events) {
-    for (const Event& event : events) {
-      if (event.kind != EventKind::step) continue;
-      ++steps;
-      for (const auto& [name, value] : event.values) {
-        if (name == "adjustment" && value > recovery_step) last_recovery = steps;
-      }
-    }
-  }
-};
-
 }  // namespace
 
 TrialResult run_trial(const TrialSpec& spec, std::shared_ptr<const Robot> robot) {
   Simulation simulation({std::move(robot), spec.plant, spec.seed, spec.strategies});
-  simulation.walk(spec.walk);
+  if (!spec.stand) simulation.walk(spec.walk);
   TrialResult result;
 
   const auto finish = [&](TrialOutcome outcome, std::string reason) {
@@ -57,7 +41,8 @@ TrialResult run_trial(const TrialSpec& spec, std::shared_ptr<const Robot> robot)
   }
   simulation.take_events();
 
-  RecoveryCount recovery;
+  Recovery recovery(spec.stand);
+  const auto step = [&] { recovery.look(simulation.step()); };
   if (spec.push) {
     simulation.push(*spec.push);
     // Safe to hold on to: this simulation gets no second push.
@@ -77,18 +62,23 @@ TrialResult run_trial(const TrialSpec& spec, std::shared_ptr<const Robot> robot)
       return finish(TrialOutcome::invalid, "before the push: " + simulation.fall_reason());
     }
     result.push_tick = push.start_tick;
-    while (push.state == PushState::active && !fell()) simulation.step();
+    while (push.state == PushState::active && !fell()) step();
     result.delivered_ns = push.delivered.norm();
   }
 
-  const std::uint64_t end = simulation.next_tick() + ticks_of(spec.observe_s);
-  while (simulation.next_tick() < end && !fell()) simulation.step();
+  const std::uint64_t start = simulation.next_tick();
+  const std::uint64_t end = start + ticks_of(spec.observe_s);
+  while (simulation.next_tick() < end && !fell()) step();
   recovery.take(simulation.take_events());
   if (fell()) {
     result.fall_time_s = simulation.frame().time;
     return finish(TrialOutcome::fell, simulation.fall_reason());
   }
-  result.steps_to_recover = recovery.last_recovery;
+  result.steps_to_recover = recovery.steps();
+  if (const auto back = recovery.back_tick()) {
+    result.recovery_time_s =
+        static_cast<double>(std::max(*back, start) - start) * Simulation::tick_s;
+  }
   return finish(TrialOutcome::recovered, {});
 }
 

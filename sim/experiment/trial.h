@@ -18,8 +18,9 @@ struct TrialSpec {
   PlantKind plant = PlantKind::bullet;
   std::uint64_t seed = 1;
   engine::WalkCommand walk;
+  bool stand = false;  ///< no walk command: it stands, is pushed, and is to stand again
   engine::Strategies strategies;
-  double settle_s = 3.0;   ///< walking before the push may start [s]
+  double settle_s = 3.0;   ///< walking or standing before the push may start [s]
   double observe_s = 4.0;  ///< after the push has ended [s]
   std::optional<PushSpec> push;
 };
@@ -37,6 +38,9 @@ struct TrialResult {
   double delivered_ns = 0.0;  ///< norm of the impulse that really acted [N s]
   std::optional<std::uint64_t> push_tick;         ///< first tick of the push
   std::optional<std::uint64_t> steps_to_recover;  ///< steps until back at the commanded gait
+  /// From the push's end until back for good at what was commanded, by the criteria of recovery.h
+  /// [s]; 0: it was by then. Nothing when it had not come back by the end of the observation.
+  std::optional<double> recovery_time_s;
   std::optional<double> fall_time_s;
   double worst_dcm_error_m = 0.0;
   std::uint64_t ticks = 0;

@@ -35,6 +35,19 @@ bool is_due(PushRecord& push, double time, const GaitPhase& phase) {
 
 }  // namespace
 
+Vec3 horizontal_direction(double degrees) {
+  // Exact at the quarters, where cos(pi/2) would leave 6e-17.
+  const double quarters = degrees / 90.0;
+  if (quarters == std::floor(quarters)) {
+    const int quarter = ((static_cast<int>(quarters) % 4) + 4) % 4;
+    constexpr double cosines[] = {1.0, 0.0, -1.0, 0.0};
+    constexpr double sines[] = {0.0, 1.0, 0.0, -1.0};
+    return {cosines[quarter], sines[quarter], 0.0};
+  }
+  const double angle = degrees * std::numbers::pi / 180.0;
+  return {std::cos(angle), std::sin(angle), 0.0};
+}
+
 std::uint64_t PushSchedule::add(const PushSpec& spec, std::uint64_t tick) {
   PushRecord record;
   record.id = records_.size() + 1;

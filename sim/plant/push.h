@@ -47,6 +47,9 @@ struct PushSpec {
   PushTrigger trigger;
 };
 
+/// Unit vector of the ground plane: 0 degrees is forward, 90 to the left.
+Vec3 horizontal_direction(double degrees);
+
 enum class PushState : std::uint8_t { scheduled, active, done, cancelled };
 
 /// A push on its way: the specification and what has become of it.

@@ -4,7 +4,7 @@ import fs from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import { test } from 'node:test';
-import { command } from './support.mjs';
+import { command, interrupted } from './support.mjs';
 
 const push = { impulse_ns: 5, direction_deg: 90, trigger: { phase: 'single_support', leg: 'left' } };
 const spec = { robot: 'kasaei', plant: 'lipm', settle_s: 2, observe_s: 2, push };
@@ -17,7 +17,7 @@ test('--version and --help', async () => {
   assert.match(version.stdout, /^\d+\.\d+\.\d+\n$/);
   const help = await command(['--help']);
   assert.equal(help.code, 0);
-  for (const name of ['serve', 'run', 'trial', 'robots', 'paper']) assert.match(help.stdout, RegExp(name));
+  for (const name of ['serve', 'run', 'trial', 'limits', 'robots', 'paper']) assert.match(help.stdout, RegExp(name));
 });
 
 test('bad options end with 2', async () => {
@@ -68,7 +68,7 @@ test('the same trial twice gives the same result to the bit', async () => {
   assert.equal(first.code, 0, first.stderr);
   assert.equal(first.stdout, second.stdout);
   const result = JSON.parse(first.stdout);
-  for (const key of ['outcome', 'reason', 'delivered_ns', 'steps_to_recover', 'fall_time_s',
+  for (const key of ['outcome', 'reason', 'delivered_ns', 'steps_to_recover', 'recovery_time_s', 'fall_time_s',
     'push_tick', 'worst_dcm_error_m', 'ticks', 'state_hash', 'spec', 'version']) {
     assert.ok(key in result, key);
   }
@@ -125,6 +125,70 @@ test('a trial is read from a file too', async () => {
     assert.equal(JSON.parse(stdout).push_tick, null);
   } finally {
     fs.rmSync(folder, { recursive: true });
+  }
+});
+
+const limits = (...args) => command(['limits', '--robot', 'kasaei', '--plant', 'lipm', '--quiet', ...args]);
+const small = ['--directions', '0,90', '--phases', '0.1', '--strategies', 'ankle', '--seeds', '3'];
+
+test('limits are numbers with their conditions', async () => {
+  const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'stagger-'));
+  try {
+    const file = path.join(folder, 'limits.json');
+    const page = path.join(folder, 'limits.md');
+    const { code, stdout, stderr } =
+      await limits(...small, '--to', '0.4', '--json', '--out', file, '--markdown', page);
+    assert.equal(code, 0, stderr);
+    assert.equal(stderr, '');
+    const { conditions, results } = JSON.parse(stdout);
+    assert.deepEqual(conditions.seeds, [1, 2, 3]);
+    assert.deepEqual(conditions.strategies, ['ankle']);
+    assert.deepEqual(conditions.ladder, [0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4]);
+    assert.deepEqual(results.map((r) => [r.direction_deg, r.phase, r.duration_s]),
+      [[0, 0.1, 0.01], [90, 0.1, 0.01]]);
+    assert.deepEqual([results[0].pass_dv, results[0].fail_dv], [0.2, 0.25]);
+    for (const result of results) {
+      assert.ok(result.ceiling_percent > 50 && result.ceiling_percent <= 100, result.ceiling_percent);
+    }
+    assert.equal(fs.readFileSync(file, 'utf8'), stdout);
+    assert.match(fs.readFileSync(page, 'utf8'), /stagger limits --robot kasaei/);
+  } finally {
+    fs.rmSync(folder, { recursive: true });
+  }
+});
+
+test('limits are the same on one core and on many', async () => {
+  const one = await limits(...small, '--json', '--threads', '1');
+  const many = await limits(...small, '--json', '--threads', '5');
+  assert.equal(one.code, 0, one.stderr);
+  assert.equal(one.stdout, many.stdout);
+});
+
+test('a gate that is not passed ends with 1', async () => {
+  assert.equal((await limits(...small, '--gate', '0.1')).code, 0);
+  const { code, stdout } = await limits(...small, '--gate', '0.32', '--json');
+  assert.equal(code, 1);
+  assert.equal(JSON.parse(stdout).conditions.ladder.at(-1), 0.32);
+});
+
+test('Ctrl-C ends a search at once, and says so', async () => {
+  const { code, stdout, stderr } = await interrupted(['limits', '--robot', 'kasaei']);
+  assert.equal(code, 130);
+  assert.equal(stdout, '');
+  assert.match(stderr, /stopped at 0\.1 m\/s after \d+ trials/);
+});
+
+test('limits refuses naming option, value and range', async () => {
+  for (const [option, value, range] of [['--directions', '0,400', '360'], ['--phases', '1', 'less than 1'],
+    ['--phases', 'standing,standing', 'twice'], ['--durations', '0.0001', '0.001'], ['--seeds', '0', '1000'],
+    ['--strategies', 'hip', 'ankle'], ['--from', 'nan', '0.001'], ['--to', '0.05', '0.1'], ['--step', '0', '0.001'],
+    ['--gate', '0.05', '0.1'], ['--link', 'tail', 'torso'], ['--leg', 'middle', 'either'], ['--vx', '1', '0.5'],
+    ['--observe-s', '61', '60'], ['--recover-s', '7', '6'], ['--threads', '-1', '1024'],
+    ['--seed', '9007199254740992', '2^53'], ['--out', '/no/such/file', 'cannot write']]) {
+    const { code, stdout, stderr } = await limits(option, value);
+    assert.equal(code, 2, option);
+    assert.equal(stdout, '', option);
+    for (const part of [option, value.split(',').at(-1), range]) assert.ok(stderr.includes(part), stderr);
   }
 });
 

@@ -36,8 +36,9 @@ export async function eventually(condition, what, ms = patience) {
 }
 
 /** Runs a command to its end: {code, stdout, stderr}. */
-export async function command(args, input = '') {
+export async function command(args, input = '', watch = () => {}) {
   const child = spawn(binary, args, { env: environment, stdio: 'pipe' });
+  watch(child);
   const output = { stdout: '', stderr: '' };
   child.stdout.on('data', (data) => (output.stdout += data));
   child.stderr.on('data', (data) => (output.stderr += data));
@@ -49,6 +50,11 @@ export async function command(args, input = '') {
   } finally {
     child.kill('SIGKILL');
   }
+}
+
+/** A command that gets SIGINT as soon as it has written to standard error. */
+export async function interrupted(args) {
+  return command(args, '', (child) => child.stderr.once('data', () => child.kill('SIGINT')));
 }
 
 /** A server of its own for a test: `await using` is too new, so end it with end() or kill(). */

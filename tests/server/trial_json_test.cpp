@@ -62,6 +62,21 @@ TEST(TrialJson, AnEmptyListOfStrategiesSwitchesAllOff) {
               UnorderedElementsAre("/strategies"));
 }
 
+TEST(TrialJson, WhoStandsDoesNotWalk) {
+  sim::JsonErrors errors;
+  const auto read = [&errors](const char* text) {
+    return read_trial(sim::parse_json(text), errors);
+  };
+  EXPECT_FALSE(read(R"({"robot":"a"})").stand);
+  const sim::TrialSpec spec = read(R"({"robot":"a","stand":true,"walk":{"vx":0}})");
+  EXPECT_TRUE(spec.stand);
+  EXPECT_TRUE(read(trial_spec_json(spec).dump().c_str()).stand);
+  EXPECT_TRUE(errors.empty());
+  EXPECT_THAT(errors_of(R"({"robot":"a","stand":true,"walk":{"wz":0.1}})"),
+              UnorderedElementsAre("/stand"));
+  EXPECT_THAT(errors_of(R"({"robot":"a","stand":1})"), UnorderedElementsAre("/stand"));
+}
+
 TEST(TrialJson, AResolvedTrialReadsBackTheSame) {
   sim::JsonErrors errors;
   const char* text = R"({"robot":"kasaei","plant":"lipm","seed":9,"walk":{"vx":0.1},
@@ -83,6 +98,7 @@ TEST(TrialJson, WhatDidNotHappenIsNull) {
   EXPECT_TRUE(json["push_tick"].is_null());
   EXPECT_TRUE(json["fall_time_s"].is_null());
   EXPECT_TRUE(json["steps_to_recover"].is_null());
+  EXPECT_TRUE(json["recovery_time_s"].is_null());
   EXPECT_EQ(json["state_hash"], "0000000000000abc");
 }
 
