@@ -27,7 +27,7 @@ struct HipParameters {
   double inertia = 1.0;  ///< [kg m^2]
   double angle = 0.5;    ///< greatest lean [rad]
   double rate = 1e9;     ///< greatest angular velocity [rad/s]
-  bool in_steps = true;  ///< also beside steps that are adjusted, else only where none are
+  bool in_steps = true;  ///< also when steps are adjusted; else only with that strategy off
 };
 
 /// Defaults are the recommended set for the paper's robot on the LIPM (30 kg, CoM at 1 m).
@@ -91,6 +91,11 @@ struct Parameters {
 /// Throws std::invalid_argument, naming field, value and allowed range, at the first value that is
 /// not finite, out of its range, or does not go with another.
 void validate(const Parameters& parameters);
+
+/// Whether the hip strategy may act.
+inline bool hip_acts(const Parameters& p) {
+  return p.strategies.hip && p.hip.torque > 0.0 && (p.hip.in_steps || !p.strategies.step);
+}
 
 /// sqrt((g + zdd) / z_c) with zdd = 0: natural frequency of the LIPM [1/s]; eq. (2).
 inline double natural_frequency(const Parameters& p) { return std::sqrt(p.gravity / p.com_height); }

@@ -27,7 +27,7 @@ Parameters quick_steps(Parameters p) {
 /// The farthest outside of the sole that a DCM can be for a flywheel at rest to bring it back:
 /// tau / (m g) (1 - e^{-w T1})^2, T1 = sqrt(J theta / tau) (Pratt et al. 2006, "Capture point").
 double hip_reserve(const Parameters& p) {
-  if (p.hip.torque <= 0.0) return 0.0;
+  if (!(p.hip.torque > 0.0 && p.hip.in_steps)) return 0.0;
   const double swing = std::sqrt(p.hip.inertia * p.hip.angle / p.hip.torque);
   const double kept = -std::expm1(-natural_frequency(p) * swing);
   return p.hip.torque / (p.mass * p.gravity) * kept * kept;

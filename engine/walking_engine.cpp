@@ -461,13 +461,13 @@ void WalkingEngine::use_hip() {
     }
   };
   const bool single = machine_.state() == WalkingState::single_support;
-  if (single && parameters_.strategies.step && parameters_.hip.in_steps) {
+  if (single && parameters_.strategies.step) {
     const double growth = std::exp(omega_ * machine_.single_support_left());
     const StepSituation now = situation(steps_[0]);
     const Vec2 foothold = catching_line(now).foothold(growth);
     const Vec2 local = rotated(foothold - stance_.position, -yaw);
     measure(local, reach_.polygon(stance_.side), Vec2::Zero(), 0.0, now.transfer / growth);
-  } else if (single && !parameters_.strategies.step) {
+  } else if (single) {
     // The ZMP that takes the DCM to where the plan wants it at touchdown; without a step ahead that
     // is the DCM itself. A step that comes is allowed to be met a little off its plan.
     const double decay = std::exp(-omega_ * machine_.single_support_left());
@@ -483,7 +483,7 @@ void WalkingEngine::use_hip() {
   } else if (machine_.state() == WalkingState::idle) {
     measure(lqg_.dcm(), polygon_, stance_.position, yaw, 1.0);
   }
-  hip_.update(excess, polygon_.margin(targets_.zmp_command), parameters_.strategies.hip);
+  hip_.update(excess, polygon_.margin(targets_.zmp_command), hip_acts(parameters_));
   hip_aid_ = {rotated(hip_.zmp_shift(), yaw), rotated(hip_.swing(), yaw)};
   targets_.zmp_shift = hip_aid_.shift;
   targets_.hip_angle = hip_.angle();
