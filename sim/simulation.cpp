@@ -17,7 +17,8 @@ std::unique_ptr<Plant> make_plant(const SimulationConfig& config) {
   if (config.plant == PlantKind::lipm) {
     return std::make_unique<LipmPlant>(lipm_parameters(*config.robot), Simulation::tick_s);
   }
-  return std::make_unique<FullBodyPlant>(config.robot, Simulation::tick_s);
+  return std::make_unique<FullBodyPlant>(config.robot, Simulation::tick_s, config.senses,
+                                         config.seed);
 }
 
 std::vector<std::string> joint_names(const SimulationConfig& config) {

@@ -35,7 +35,7 @@ struct RecoveryCount {
 }  // namespace
 
 TrialResult run_trial(const TrialSpec& spec, std::shared_ptr<const Robot> robot) {
-  Simulation simulation({std::move(robot), spec.plant, spec.seed, spec.strategies});
+  Simulation simulation({std::move(robot), spec.plant, spec.seed, spec.strategies, spec.senses});
   simulation.walk(spec.walk);
   TrialResult result;
 

@@ -43,13 +43,13 @@ void engine_tick(benchmark::State& state) {
 BENCHMARK(engine_tick);
 
 void world_construction(benchmark::State& state) {
-  for (auto _ : state) benchmark::DoNotOptimize(FullBodyPlant(kasaei(), Simulation::tick_s));
+  for (auto _ : state) benchmark::DoNotOptimize(FullBodyPlant(kasaei(), Simulation::tick_s, {}, 1));
 }
 BENCHMARK(world_construction)->Unit(benchmark::kMicrosecond);
 
 /// Standing: the controller and the physics of a tick, one at a time.
 struct Standing {
-  FullBodyPlant plant{kasaei(), Simulation::tick_s};
+  FullBodyPlant plant{kasaei(), Simulation::tick_s, {}, 1};
   engine::WalkingEngine engine{
       engine_parameters(*kasaei(), PlantKind::bullet, {}, Simulation::tick_s), plant.measurement()};
   RobotState state = nominal_state(*kasaei());
