@@ -29,7 +29,8 @@ class Noise {
   }
 
  private:
-  /// The finaliser of SplitMix64 (Steele, Lea and Flood 2014): numbers that are close end far apart.
+  /// The finaliser of SplitMix64 (Steele, Lea and Flood 2014): numbers that are close end far
+  /// apart.
   static std::uint64_t mixed(std::uint64_t x) {
     x += 0x9e3779b97f4a7c15ULL;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;

@@ -21,6 +21,9 @@ Eigen::Matrix3d cross_matrix(const Vec3& v) {
   return m;
 }
 
+/// A foot farther off than this many deviations has slipped.
+constexpr double slip_gate = 4.0;
+
 Eigen::Quaterniond rotation_by(const Vec3& vector) {
   const double angle = vector.norm();
   // Half the sine over the angle; the series is exact to the last bit below that angle.
@@ -37,7 +40,7 @@ double squared(double x) { return x * x; }
 
 ContactFilter::ContactFilter(const ContactFilterNoise& noise, double dt, double gravity,
                              const Vec3& start, const Eigen::Quaterniond& orientation)
-    : noise_(noise), dt_(dt), gravity_(gravity), orientation_(orientation), position_(start) {
+    : noise_(noise), dt_(dt), gravity_(gravity), orientation_(orientation), origin_(start) {
   const auto set = [this](int at, double deviation) {
     covariance_.diagonal().segment<3>(at).setConstant(squared(deviation));
   };
@@ -56,45 +59,97 @@ void ContactFilter::predict(const Vec3& measured_velocity, const Vec3& measured_
   const Vec3 force_in_world = rotation * force;
   const Vec3 change = dt_ * (force_in_world - Vec3(0.0, 0.0, gravity_));
   angular_velocity_ = rotation * omega;
+  orientation_ = (orientation_ * rotation_by(dt_ * omega)).normalized();
+  move_errors(rotation, velocity_);
   position_ += dt_ * (velocity_ + 0.5 * change);
   velocity_ += change;
-  orientation_ = (orientation_ * rotation_by(dt_ * omega)).normalized();
+}
 
-  // P <- F P F', F = 1 but for three rows of blocks; from the last of them to be used on.
+void ContactFilter::move_errors(const Eigen::Matrix3d& rotation, const Vec3& velocity) {
   Covariance& p = covariance_;
-  const Eigen::Matrix3d tilting = dt_ * cross_matrix(force_in_world);
+  // P <- F P F' by rows and then by columns, each from old ones:
+  //   e' = e - dt R b_gyro                     x' = x - dt x cross R b_gyro, x the feet,
+  //   x' = x + dt v - dt x cross R b_gyro, x the position,
+  //   v' = v + dt g cross e - dt R b_accelerometer - dt v cross R b_gyro.
   const Eigen::Matrix3d turned = dt_ * rotation;
-  p.middleRows<3>(position_at).noalias() += dt_ * p.middleRows<3>(velocity_at);
-  p.middleRows<3>(velocity_at).noalias() -= tilting * p.middleRows<3>(turn_at);
-  p.middleRows<3>(velocity_at).noalias() -= turned * p.middleRows<3>(accelerometer_at);
-  p.middleRows<3>(turn_at).noalias() -= turned * p.middleRows<3>(gyro_at);
-  p.middleCols<3>(position_at).noalias() += dt_ * p.middleCols<3>(velocity_at);
-  p.middleCols<3>(velocity_at).noalias() -= p.middleCols<3>(turn_at) * tilting.transpose();
-  p.middleCols<3>(velocity_at).noalias() -= p.middleCols<3>(accelerometer_at) * turned.transpose();
-  p.middleCols<3>(turn_at).noalias() -= p.middleCols<3>(gyro_at) * turned.transpose();
-  const auto grow = [&](int at, double density) {
-    p.diagonal().segment<3>(at).array() += squared(density) * dt_;
+  const double fall = dt_ * gravity_;
+  {
+    const Eigen::Matrix<double, 3, states> turning = turned * p.middleRows<3>(gyro_at);
+    const auto cross = [&](int at, const Vec3& x) {
+      p.row(at) -= x.y() * turning.row(2) - x.z() * turning.row(1);
+      p.row(at + 1) -= x.z() * turning.row(0) - x.x() * turning.row(2);
+      p.row(at + 2) -= x.x() * turning.row(1) - x.y() * turning.row(0);
+    };
+    p.middleRows<3>(position_at).noalias() += dt_ * p.middleRows<3>(velocity_at);
+    p.row(velocity_at) += fall * p.row(turn_at + 1);
+    p.row(velocity_at + 1) -= fall * p.row(turn_at);
+    p.middleRows<3>(velocity_at).noalias() -= turned * p.middleRows<3>(accelerometer_at);
+    cross(velocity_at, velocity);
+    cross(position_at, position_);
+    cross(place_of(0), feet_[0]);
+    cross(place_of(1), feet_[1]);
+    p.middleRows<3>(turn_at) -= turning;
+  }
+  {
+    const Eigen::Matrix<double, states, 3> turning = p.middleCols<3>(gyro_at) * turned.transpose();
+    const auto cross = [&](int at, const Vec3& x) {
+      p.col(at) -= x.y() * turning.col(2) - x.z() * turning.col(1);
+      p.col(at + 1) -= x.z() * turning.col(0) - x.x() * turning.col(2);
+      p.col(at + 2) -= x.x() * turning.col(1) - x.y() * turning.col(0);
+    };
+    p.middleCols<3>(position_at).noalias() += dt_ * p.middleCols<3>(velocity_at);
+    p.col(velocity_at) += fall * p.col(turn_at + 1);
+    p.col(velocity_at + 1) -= fall * p.col(turn_at);
+    p.middleCols<3>(velocity_at).noalias() -=
+        p.middleCols<3>(accelerometer_at) * turned.transpose();
+    cross(velocity_at, velocity);
+    cross(position_at, position_);
+    cross(place_of(0), feet_[0]);
+    cross(place_of(1), feet_[1]);
+    p.middleCols<3>(turn_at) -= turning;
+  }
+  // A reading's noise acts as its bias does, for one tick.
+  Eigen::Matrix<double, states, 3> turning = Eigen::Matrix<double, states, 3>::Zero();
+  const double angle = dt_ * noise_.gyro;
+  turning.middleRows<3>(turn_at).diagonal().setConstant(angle);
+  turning.middleRows<3>(velocity_at) = cross_matrix(angle * velocity);
+  turning.middleRows<3>(position_at) = cross_matrix(angle * position_);
+  turning.middleRows<3>(place_of(0)) = cross_matrix(angle * feet_[0]);
+  turning.middleRows<3>(place_of(1)) = cross_matrix(angle * feet_[1]);
+  p.noalias() += turning * turning.transpose();
+  const auto grow = [&p](int at, double variance) {
+    p.diagonal().segment<3>(at).array() += variance;
   };
-  grow(turn_at, noise_.gyro);
-  grow(velocity_at, noise_.accelerometer);
-  grow(gyro_at, noise_.gyro_walk);
-  grow(accelerometer_at, noise_.accelerometer_walk);
+  grow(velocity_at, squared(dt_ * noise_.accelerometer));
+  grow(gyro_at, dt_ * squared(noise_.gyro_walk));
+  grow(accelerometer_at, dt_ * squared(noise_.accelerometer_walk));
+}
+
+void ContactFilter::recentre() {
+  const Vec3 way = position_;
+  origin_ += way;
+  position_.setZero();
+  for (Vec3& foot : feet_) foot -= way;
+  // What the yaw of the world does to a place depends on where the world's origin is.
+  Covariance& p = covariance_;
+  const Eigen::Matrix3d cross = cross_matrix(way);
+  for (const int at : {position_at, place_of(0), place_of(1)}) {
+    p.middleRows<3>(at) -= cross * p.middleRows<3>(turn_at);
+  }
+  for (const int at : {position_at, place_of(0), place_of(1)}) {
+    p.middleCols<3>(at) -= p.middleCols<3>(turn_at) * cross.transpose();
+  }
 }
 
 void ContactFilter::plant(std::size_t foot, const Vec3& in_base) {
-  const Vec3 arm = orientation_ * in_base;
-  feet_[foot] = position_ + arm;
+  recentre();  // now and then: far from the origin the difference of two places would lose digits
+  feet_[foot] = position_ + orientation_ * in_base;
   stands_[foot] = true;
-  // d = p + R r, so its error is that of p less arm x that of R.
+  // d = p + R r: its invariant error is that of p.
   const int at = place_of(foot);
-  const Eigen::Matrix3d cross = cross_matrix(arm);
   Covariance& p = covariance_;
-  p.middleRows<3>(at) = p.middleRows<3>(position_at) - cross * p.middleRows<3>(turn_at);
-  p.block<3, 3>(at, at).setZero();
-  const Eigen::Matrix3d own =
-      p.block<3, 3>(at, position_at) - p.block<3, 3>(at, turn_at) * cross.transpose();
-  p.middleCols<3>(at) = p.middleRows<3>(at).transpose();
-  p.block<3, 3>(at, at) = 0.5 * (own + own.transpose());
+  p.middleRows<3>(at) = p.middleRows<3>(position_at);
+  p.middleCols<3>(at) = p.middleCols<3>(position_at);
   p.diagonal().segment<3>(at).array() += squared(noise_.leg);
 }
 
@@ -105,39 +160,39 @@ void ContactFilter::shift(std::size_t foot, const Vec3& way, double deviation) {
 
 void ContactFilter::see(std::size_t foot, const Vec3& in_base) {
   const int at = place_of(foot);
-  const Vec3 arm = feet_[foot] - position_;
-  // d - p - R r = 0; in errors: e_p - e_d + e_R x arm = what it amounts to now.
-  const Vec3 residual = arm - orientation_ * in_base;
-  const Eigen::Matrix3d cross = cross_matrix(arm);
   Covariance& p = covariance_;
-  State correction = State::Zero();
+  // d - p - R r is what the error of p is more than that of d.
+  const Vec3 residual = feet_[foot] - position_ - orientation_ * in_base;
   const double variance = squared(noise_.leg);
-  for (int axis = 0; axis < 3; ++axis) {
-    State spread = p.col(position_at + axis) - p.col(at + axis);
-    // A row of a cross matrix has two entries.
-    const int j = (axis + 1) % 3;
-    const int k = (axis + 2) % 3;
-    spread -= cross(axis, j) * p.col(turn_at + j) + cross(axis, k) * p.col(turn_at + k);
-    const auto along = [&](const State& x) {
-      return x[position_at + axis] - x[at + axis] - cross(axis, j) * x[turn_at + j] -
-             cross(axis, k) * x[turn_at + k];
-    };
-    const double total = along(spread) + variance;
-    correction += ((residual[axis] - along(correction)) / total) * spread;
-    const State scaled = spread / std::sqrt(total);
+  double total = 3.0 * variance;
+  for (int i = 0; i < 3; ++i) {
+    total +=
+        p(position_at + i, position_at + i) - 2.0 * p(position_at + i, at + i) + p(at + i, at + i);
+  }
+  if (residual.squaredNorm() > squared(slip_gate) * total) {
+    p.diagonal().segment<3>(at).array() += residual.squaredNorm();
+  }
+  State correction = State::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const State spread = p.col(position_at + i) - p.col(at + i);
+    const double expected = correction[position_at + i] - correction[at + i];
+    const double sum = spread[position_at + i] - spread[at + i] + variance;
+    correction += ((residual[i] - expected) / sum) * spread;
+    const State scaled = spread / std::sqrt(sum);
     p.noalias() -= scaled * scaled.transpose();
   }
   take(correction);
 }
 
 void ContactFilter::take(const State& correction) {
-  orientation_ = (rotation_by(correction.segment<3>(turn_at)) * orientation_).normalized();
-  velocity_ += correction.segment<3>(velocity_at);
-  position_ += correction.segment<3>(position_at);
+  const Eigen::Quaterniond turn = rotation_by(correction.segment<3>(turn_at));
+  orientation_ = (turn * orientation_).normalized();
+  velocity_ = turn * velocity_ + correction.segment<3>(velocity_at);
+  position_ = turn * position_ + correction.segment<3>(position_at);
   gyro_bias_ += correction.segment<3>(gyro_at);
   accelerometer_bias_ += correction.segment<3>(accelerometer_at);
   for (std::size_t foot = 0; foot < 2; ++foot) {
-    if (stands_[foot]) feet_[foot] += correction.segment<3>(place_of(foot));
+    feet_[foot] = turn * feet_[foot] + correction.segment<3>(place_of(foot));
   }
 }
 

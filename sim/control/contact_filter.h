@@ -1,4 +1,5 @@
-// The Kalman filter of a legged robot's base: an inertial unit, and feet that stay where they stand.
+// The Kalman filter of a legged robot's base: an inertial unit, and feet that stay where they
+// stand.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -10,14 +11,13 @@ namespace stagger::sim {
 using engine::PerFoot;
 using engine::Vec3;
 
-/// Spectral densities [.../sqrt(Hz)] of continuous white noises, and standard deviations of what is
-/// not known at the start.
+/// Standard deviations, each axis.
 struct ContactFilterNoise {
-  double gyro = 0.0;                ///< [rad/s/sqrt(Hz)]
-  double accelerometer = 0.0;       ///< [m/s^2/sqrt(Hz)]
-  double gyro_walk = 0.0;           ///< of the bias [rad/s^2/sqrt(Hz)]
-  double accelerometer_walk = 0.0;  ///< of the bias [m/s^3/sqrt(Hz)]
-  double leg = 0.0;                 ///< of one look at a foot, each axis; a deviation [m]
+  double gyro = 0.0;                ///< of a reading [rad/s]
+  double accelerometer = 0.0;       ///< of a reading [m/s^2]
+  double gyro_walk = 0.0;           ///< of the bias, after one second [rad/s]
+  double accelerometer_walk = 0.0;  ///< of the bias, after one second [m/s^2]
+  double leg = 0.0;                 ///< of one look at a foot [m]
   double start_tilt = 0.0;          ///< [rad]
   double start_velocity = 0.0;      ///< [m/s]
   double gyro_bias = 0.0;           ///< [rad/s]
@@ -25,10 +25,12 @@ struct ContactFilterNoise {
 };
 
 /// Error-state filter over the base's orientation, velocity, position, both biases and the place of
-/// each foot that stands (Bloesch et al., State Estimation for Legged Robots, RSS 2012, without the
-/// feet's orientation), here with all errors in world axes. World yaw and place are not observable
-/// and drift; the base and the feet drift together. Covariances are worked on by their structure:
-/// three rows of blocks in the prediction, one scalar after the other in the update. No heap.
+/// each foot that stands, with the right-invariant error (Hartley, Ghaffari, Eustice and Grizzle,
+/// Contact-Aided Invariant Extended Kalman Filtering for Robot State Estimation, IJRR 2020): with R
+/// off by the rotation e, a place or velocity x is off by exp(e) x - x besides its own error. In
+/// these words nobody's yaw about the world's origin tells anything about a foot's place, whatever
+/// the estimate, so a foot that slips cannot turn the whole world. World yaw and place are not
+/// observable and drift; base and feet drift together. No heap.
 class ContactFilter {
  public:
   ContactFilter(const ContactFilterNoise& noise, double dt, double gravity, const Vec3& position,
@@ -46,26 +48,30 @@ class ContactFilter {
   /// A foot that stands has moved by this much [m], and by something more that is not known, of
   /// this deviation in each axis [m].
   void shift(std::size_t foot, const Vec3& way, double deviation);
-  /// The foot that stands is seen there, in the base's frame [m].
+  /// The foot that stands is seen there, in the base's frame [m]. Where that cannot be, by more
+  /// than a few deviations, the foot has slipped: then it is the foot that moves, not the base.
   void see(std::size_t foot, const Vec3& in_base);
 
   const Eigen::Quaterniond& orientation() const { return orientation_; }
-  const Vec3& position() const { return position_; }
+  Vec3 position() const { return origin_ + position_; }
   const Vec3& velocity() const { return velocity_; }
   /// Mean over the last tick, world axes [rad/s].
   const Vec3& angular_velocity() const { return angular_velocity_; }
   const Vec3& gyro_bias() const { return gyro_bias_; }
   const Vec3& accelerometer_bias() const { return accelerometer_bias_; }
-  const Vec3& foot(std::size_t foot) const { return feet_[foot]; }
+  Vec3 foot(std::size_t foot) const { return origin_ + feet_[foot]; }
 
   static constexpr int states = 21;
   using Covariance = Eigen::Matrix<double, states, states>;
-  /// Of the errors [orientation, velocity, position, gyro bias, accelerometer bias, left foot, right
-  /// foot], world axes but for the biases; a foot in the air has zeros.
+  /// Of the errors [orientation, velocity, position, gyro bias, accelerometer bias, left foot,
+  /// right foot], world axes but for the biases, about a point near the base. That of a foot in the
+  /// air means nothing.
   const Covariance& covariance() const { return covariance_; }
 
  private:
   using State = Eigen::Matrix<double, states, 1>;
+  void move_errors(const Eigen::Matrix3d& rotation, const Vec3& velocity);
+  void recentre();
   void take(const State& correction);
 
   ContactFilterNoise noise_;
@@ -73,7 +79,8 @@ class ContactFilter {
   double gravity_;
   Eigen::Quaterniond orientation_;
   Vec3 velocity_ = Vec3::Zero();
-  Vec3 position_;
+  Vec3 origin_ = Vec3::Zero();  ///< world; of all places below
+  Vec3 position_ = Vec3::Zero();
   Vec3 gyro_bias_ = Vec3::Zero();
   Vec3 accelerometer_bias_ = Vec3::Zero();
   Vec3 angular_velocity_ = Vec3::Zero();

@@ -11,17 +11,15 @@ constexpr double gyro_walk = 1e-5;
 constexpr double accelerometer_walk = 1e-5;
 
 ContactFilterNoise filter_noise(const Robot& robot, const SensorParameters& sensors,
-                                const EstimatorParameters& parameters, double dt) {
+                                const EstimatorParameters& parameters) {
   ContactFilterNoise noise;
-  // A white sequence of that deviation at every tick.
-  noise.gyro = std::max(sensors.imu.gyro_noise, 1e-5) * std::sqrt(dt);
-  noise.accelerometer = std::max(sensors.imu.accelerometer_noise, 1e-4) * std::sqrt(dt);
+  noise.gyro = std::max(sensors.imu.gyro_noise, 1e-5);
+  noise.accelerometer = std::max(sensors.imu.accelerometer_noise, 1e-4);
   noise.gyro_walk = gyro_walk;
   noise.accelerometer_walk = accelerometer_walk;
   // Three joints turn the foot about each axis, with no more than the leg's length as lever.
   const double reach = robot.description.walk.com_height_m;
-  noise.leg = std::hypot(parameters.leg_slack,
-                         sensors.encoder.position_noise * reach);
+  noise.leg = std::hypot(parameters.leg_slack, sensors.encoder.position_noise * reach);
   noise.start_tilt = parameters.start_tilt;
   noise.start_velocity = parameters.start_velocity;
   noise.gyro_bias = std::max(sensors.imu.gyro_bias, 1e-6);
@@ -37,7 +35,7 @@ Estimator::Estimator(const Robot& robot, const SensorParameters& sensors, double
       dt_(dt),
       weight_(robot.model.mass() * gravity),
       joints_(sensors.encoder, parameters.joint_acceleration, dt, start.q),
-      filter_(filter_noise(robot, sensors, parameters, dt), dt, gravity, start.base_position,
+      filter_(filter_noise(robot, sensors, parameters), dt, gravity, start.base_position,
               start.base_orientation),
       feet_{Foot{LegKinematics(robot, engine::Side::left), {}},
             Foot{LegKinematics(robot, engine::Side::right), {}}},

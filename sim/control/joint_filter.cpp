@@ -24,8 +24,8 @@ JointFilter::JointFilter(const EncoderParameters& encoder, double acceleration, 
   const Eigen::Vector2d noise(std::max(encoder.position_noise, least_position_noise),
                               std::max(encoder.velocity_noise, least_velocity_noise));
   const Eigen::Matrix2d measurement = noise.cwiseAbs2().asDiagonal();
-  const Eigen::Matrix2d covariance = engine::solve_dare(
-      a.transpose(), Eigen::Matrix2d::Identity(), process, measurement);
+  const Eigen::Matrix2d covariance =
+      engine::solve_dare(a.transpose(), Eigen::Matrix2d::Identity(), process, measurement);
   gain_ = covariance * (covariance + measurement).inverse();
 }
 

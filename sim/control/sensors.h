@@ -56,8 +56,8 @@ struct SensorParameters {
 
 /// What presses on a sole, in the sole's frame.
 struct SoleLoad {
-  double force = 0.0;        ///< normal to the sole [N]
-  Vec2 cop = Vec2::Zero();   ///< centre of pressure; the sole's centre where hardly any load is [m]
+  double force = 0.0;       ///< normal to the sole [N]
+  Vec2 cop = Vec2::Zero();  ///< centre of pressure; the sole's centre where hardly any load is [m]
 };
 
 struct SensorReadings {
@@ -91,7 +91,7 @@ class Sensors {
   SensorParameters parameters_;
   double dt_;
   double gravity_;
-  double weight_;               ///< [N]
+  double weight_;                ///< [N]
   PerFoot<double> sole_length_;  ///< [m]
   PerFoot<Vec2> half_sole_;      ///< [m]
   Noise imu_noise_;
