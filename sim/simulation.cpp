@@ -44,7 +44,8 @@ const char* name(Side side) { return side == Side::left ? "left" : "right"; }
 Simulation::Simulation(SimulationConfig config)
     : config_(std::move(config)),
       plant_(make_plant(config_)),
-      engine_(engine_parameters(*config_.robot, config_.plant, config_.strategies, tick_s),
+      engine_(engine_parameters(*config_.robot, config_.plant, config_.strategies, tick_s,
+                                config_.senses),
               plant_->measurement()) {
   channels_ = make_channels(joint_names(config_));
   plant_->describe(frame_);

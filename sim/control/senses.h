@@ -7,9 +7,9 @@ namespace stagger::sim {
 
 /// For the full body; the pendulum has noise and delay of its own.
 struct SenseParameters {
-  bool perfect_state = true;   ///< control reads the physics' state; else sensors and an estimator
-  double control_delay = 0.0;  ///< from a measurement to the torque made from it, 0 to 0.01 [s]
-  SensorParameters sensors;    ///< without effect when the state is perfect
+  bool perfect_state = false;  ///< control reads the physics' state; else sensors and an estimator
+  double control_delay = 0.001;  ///< from a measurement to the torque made from it, 0 to 0.01 [s]
+  SensorParameters sensors;      ///< without effect when the state is perfect
   bool operator==(const SenseParameters&) const = default;
 };
 

@@ -17,7 +17,8 @@ TEST(JointFilter, TakesNoiseOutOfTheVelocity) {
   double squares = 0.0;
   constexpr int n = 5000;
   for (int i = 0; i < n; ++i) {
-    filter.update(one(0.3 + encoder.position_noise * noise()), one(encoder.velocity_noise * noise()));
+    filter.update(one(0.3 + encoder.position_noise * noise()),
+                  one(encoder.velocity_noise * noise()));
     if (i >= 100) squares += filter.qd()[0] * filter.qd()[0];
   }
   EXPECT_LT(std::sqrt(squares / (n - 100)), 0.95 * encoder.velocity_noise);

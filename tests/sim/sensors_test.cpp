@@ -161,7 +161,8 @@ TEST(Sensors, ForceNoiseGrowsWithTheRobotsWeight) {
     for (Body& body : robot.model.bodies) body.mass *= scale;
     Sensors sensors(robot, {}, 1, dt, gravity, nominal_state(robot));
     std::vector<double> force;
-    for (int i = 0; i < 2000; ++i) force.push_back(sensors.read(nominal_state(robot), {}).soles[0].force);
+    for (int i = 0; i < 2000; ++i)
+      force.push_back(sensors.read(nominal_state(robot), {}).soles[0].force);
     return statistics(force);
   };
   const Statistics one = noise(1.0);
