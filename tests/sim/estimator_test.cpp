@@ -52,7 +52,7 @@ TEST(Estimator, FollowsARobotThatTipsOverItsToes) {
   const RobotState start = nominal_state(kasaei());
   const auto poses = body_poses(kasaei().model, start);
   const Eigen::Isometry3d sole =
-      poses[kasaei().foot_body(Side::left)] * kasaei().sole_in_body(Side::left);
+      poses[kasaei().foot_body(engine::Side::left)] * kasaei().sole_in_body(engine::Side::left);
   const Vec2 edge(0.5 * kasaei().description.feet[0].sole.length, 0.0);
   const Vec3 pivot = sole * Vec3(edge.x(), 0.0, 0.0);
   Sensed sensed(start);

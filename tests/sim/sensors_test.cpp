@@ -151,7 +151,9 @@ TEST(Sensors, ADelayedInertialUnitTellsWhatWas) {
     state = moved(state, 10.0 * random.vector(18), dt);
     forces.push_back(now.read(state, {}).specific_force);
     const Vec3& delayed = then.read(state, {}).specific_force;
-    if (i >= 3) EXPECT_EQ(delayed, forces[static_cast<std::size_t>(i) - 3]);
+    if (i >= 3) {
+      EXPECT_EQ(delayed, forces[static_cast<std::size_t>(i) - 3]);
+    }
   }
 }
 
