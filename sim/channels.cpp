@@ -100,6 +100,21 @@ std::vector<Channel> make_channels(const std::vector<std::string>& joint_names) 
       vector<3>("com_velocity", "m/s", "velocity of the centre of mass", &Frame::com_velocity));
   table.push_back(vector<2>("dcm", "m", "divergent component of motion", &Frame::dcm));
   table.push_back(vector<2>("zmp", "m", "zero moment point from the contact forces", &Frame::zmp));
+  table.push_back(vector<3>("com_sensed", "m",
+                            "centre of mass as control knows it, about the support foot",
+                            &Frame::com_sensed));
+  table.push_back(vector<2>("dcm_sensed", "m", "DCM as control knows it, about the support foot",
+                            &Frame::dcm_sensed));
+  table.push_back(
+      {"drift",
+       "world",
+       "of the world that control knows, undone in all other channels: turn, then shift",
+       {{"x", "m"}, {"y", "m"}, {"z", "m"}, {"yaw", "rad"}},
+       1,
+       [](const Frame& f, Values& out) {
+         const Vec3& shift = f.drift.shift;
+         out.insert(out.end(), {shift.x(), shift.y(), shift.z(), f.drift.yaw});
+       }});
   table.push_back(vector<2>("com_reference", "m", "planned centre of mass", &Frame::com_reference));
   table.push_back(vector<2>("dcm_reference", "m", "planned DCM", &Frame::dcm_reference));
   table.push_back(vector<2>("zmp_reference", "m", "planned ZMP", &Frame::zmp_reference));

@@ -2,12 +2,14 @@
 #pragma once
 
 #include "engine/parameters.h"
+#include "sim/control/senses.h"
 #include "sim/plant/plant.h"
 #include "sim/robot/robot.h"
 
 namespace stagger::sim {
 
 engine::Parameters engine_parameters(const Robot& robot, PlantKind plant,
-                                     const engine::Strategies& strategies, double tick);
+                                     const engine::Strategies& strategies, double tick,
+                                     const SenseParameters& senses = {});
 
 }  // namespace stagger::sim

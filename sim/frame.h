@@ -7,6 +7,7 @@
 
 #include "engine/types.h"
 #include "engine/walking_targets.h"
+#include "sim/world_shift.h"
 
 namespace stagger::sim {
 
@@ -21,7 +22,9 @@ using engine::WalkingState;
 inline constexpr std::size_t max_joints = 64;
 inline constexpr std::size_t max_polygon_vertices = 8;
 
-/// World frame, SI units; "measured" is what the plant did, "reference" what the engine planned.
+/// World frame, SI units; "measured" is what the plant did, "reference" what the engine planned,
+/// "sensed" what control knows of it. The world that control knows drifts: what comes from there is
+/// told in the true world, as it is to the support foot.
 /// Which of these are published, and under which names, is told by the table in channels.h.
 struct Frame {
   std::uint64_t tick = 0;
@@ -39,6 +42,9 @@ struct Frame {
   Vec3 com_velocity = Vec3::Zero();
   Vec2 dcm = Vec2::Zero();
   Vec2 zmp = Vec2::Zero();
+  Vec3 com_sensed = Vec3::Zero();
+  Vec2 dcm_sensed = Vec2::Zero();
+  WorldShift drift;  ///< of the world that control knows; undone in all of this frame
   Vec2 com_reference = Vec2::Zero();
   Vec2 dcm_reference = Vec2::Zero();
   Vec2 zmp_reference = Vec2::Zero();

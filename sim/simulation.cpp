@@ -17,7 +17,8 @@ std::unique_ptr<Plant> make_plant(const SimulationConfig& config) {
   if (config.plant == PlantKind::lipm) {
     return std::make_unique<LipmPlant>(lipm_parameters(*config.robot), Simulation::tick_s);
   }
-  return std::make_unique<FullBodyPlant>(config.robot, Simulation::tick_s);
+  return std::make_unique<FullBodyPlant>(config.robot, Simulation::tick_s, config.senses,
+                                         config.seed);
 }
 
 std::vector<std::string> joint_names(const SimulationConfig& config) {
@@ -26,8 +27,8 @@ std::vector<std::string> joint_names(const SimulationConfig& config) {
   return config.robot->model.joint_names();
 }
 
-GaitPhase gait_phase(const engine::WalkingTargets& t) {
-  GaitPhase phase{t.state, t.support_side, 0.0, t.heading};
+GaitPhase gait_phase(const engine::WalkingTargets& t, double heading) {
+  GaitPhase phase{t.state, t.support_side, 0.0, heading};
   if (t.state == WalkingState::single_support) {
     phase.fraction = t.phase_time / t.t_ss;
   } else if (t.state == WalkingState::double_support) {
@@ -43,7 +44,8 @@ const char* name(Side side) { return side == Side::left ? "left" : "right"; }
 Simulation::Simulation(SimulationConfig config)
     : config_(std::move(config)),
       plant_(make_plant(config_)),
-      engine_(engine_parameters(*config_.robot, config_.plant, config_.strategies, tick_s),
+      engine_(engine_parameters(*config_.robot, config_.plant, config_.strategies, tick_s,
+                                config_.senses),
               plant_->measurement()) {
   channels_ = make_channels(joint_names(config_));
   plant_->describe(frame_);
@@ -86,7 +88,8 @@ const Frame& Simulation::step() {
     if (targets.step_count != landed_before) note_landing(before);
   }
 
-  const auto& forces = pushes_.forces(tick_, frame_.time, tick_s, gait_phase(targets));
+  const auto& forces = pushes_.forces(tick_, frame_.time, tick_s,
+                                      gait_phase(targets, targets.heading + frame_.drift.yaw));
   frame_.push_force.setZero();
   for (const AppliedForce& applied : forces) frame_.push_force += applied.force;
   frame_.push_point = forces.empty() ? frame_.com : plant_->point_of(forces.front());
@@ -107,21 +110,33 @@ void Simulation::fill_frame(const engine::WalkingTargets& targets) {
   frame_.t_ds = targets.t_ds;
   frame_.step_count = targets.step_count;
   frame_.recovering = targets.recovering;
-  frame_.com_reference = targets.com_reference;
-  frame_.dcm_reference = targets.dcm_reference;
-  frame_.zmp_reference = targets.zmp_reference;
-  frame_.dcm_estimate = targets.dcm_estimate;
-  frame_.zmp_command = targets.zmp_command;
+
+  const engine::Measurement& sensed = plant_->measurement();
+  const std::size_t support = engine::index(targets.support_side);
+  frame_.drift = WorldShift::between(sensed.feet[support], frame_.feet[support]);
+  const auto here = [this](const auto& thing) { return frame_.drift.applied_to(thing); };
+  const double omega = engine::natural_frequency(engine_.parameters());
+  frame_.com_sensed = here(sensed.com);
+  frame_.dcm_sensed = here(Vec2(sensed.com.head<2>() + sensed.com_velocity.head<2>() / omega));
+  frame_.com_reference = here(targets.com_reference);
+  frame_.dcm_reference = here(targets.dcm_reference);
+  frame_.zmp_reference = here(targets.zmp_reference);
+  frame_.dcm_estimate = here(targets.dcm_estimate);
+  frame_.zmp_command = here(targets.zmp_command);
   for (std::size_t i = 0; i < 2; ++i) {
-    frame_.foot_targets[i] = {targets.feet[i].position, targets.feet[i].yaw};
+    frame_.foot_targets[i] = here(FootPose{targets.feet[i].position, targets.feet[i].yaw});
   }
-  frame_.planned_step = targets.planned_step;
-  frame_.adjusted_step = targets.adjusted_step;
-  frame_.preview = targets.preview;
+  frame_.planned_step = here(targets.planned_step);
+  frame_.adjusted_step = here(targets.adjusted_step);
   frame_.preview_count = targets.preview_count;
+  for (std::size_t i = 0; i < targets.preview_count; ++i) {
+    frame_.preview[i] = here(targets.preview[i]);
+  }
   const engine::ConvexPolygon& polygon = engine_.support_polygon();
   frame_.support_polygon_count = polygon.size();
-  for (std::size_t i = 0; i < polygon.size(); ++i) frame_.support_polygon[i] = polygon.vertex(i);
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    frame_.support_polygon[i] = here(polygon.vertex(i));
+  }
   frame_.fallen = !fall_reason_.empty();
 }
 
@@ -132,11 +147,11 @@ void Simulation::emit(EventKind kind, std::string text,
 
 void Simulation::note_landing(const engine::WalkingTargets& swing) {
   // `swing` is the last tick of the swing that has just ended.
-  const Footstep& planned = swing.planned_step;
+  const Footstep planned = frame_.drift.applied_to(swing.planned_step);
   const Footstep& adjusted = swing.adjusted_step;
   const std::size_t foot = engine::index(planned.side);
   const Vec2 landed = frame_.feet[foot].position.head<2>();
-  const double adjustment = (adjusted.position - planned.position).norm();
+  const double adjustment = (adjusted.position - swing.planned_step.position).norm();
   char text[160];
   std::snprintf(text, sizeof text,
                 "%s foot landed at (%.3f, %.3f), %.3f m from where it was planned",

@@ -10,6 +10,7 @@
 #include "engine/parameters.h"
 #include "engine/walking_engine.h"
 #include "sim/channels.h"
+#include "sim/control/senses.h"
 #include "sim/frame.h"
 #include "sim/plant/plant.h"
 #include "sim/plant/push.h"
@@ -23,6 +24,7 @@ struct SimulationConfig {
   PlantKind plant = PlantKind::bullet;
   std::uint64_t seed = 1;
   engine::Strategies strategies;
+  SenseParameters senses;  ///< of the full body; the pendulum has none of them
 };
 
 enum class EventKind : std::uint8_t { step, push_started, push_done, push_cancelled, fall };

@@ -24,13 +24,24 @@ CLI::Validator between(double low, double high) {
       "FLOAT");
 }
 
-void add_world(CLI::App& command, std::string& robot, std::string& plant, std::uint64_t& seed) {
-  command.add_option("--robot", robot, "Robot, one of `stagger robots`");
-  command.add_option("--plant", plant, "Full-body Bullet or the paper's pendulum")
+void add_world(CLI::App& command, WorldOptions& world) {
+  command.add_option("--robot", world.robot, "Robot, one of `stagger robots`");
+  command.add_option("--plant", world.plant, "Full-body Bullet or the paper's pendulum")
       ->check(CLI::IsMember({"bullet", "lipm"}))
       ->capture_default_str();
-  command.add_option("--seed", seed, "Seed of everything random")
+  command.add_option("--seed", world.seed, "Seed of everything random")
       ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--state", world.state,
+          "What control knows of the full body's state: an estimate from its sensors, or all")
+      ->check(CLI::IsMember({"estimated", "perfect"}))
+      ->capture_default_str();
+  command
+      .add_option("--control-delay-ms", world.control_delay_ms,
+                  "From a measurement to the full body's torques made from it [ms]")
+      ->check(CLI::Range(std::int64_t{0}, max_control_delay_ms))
       ->capture_default_str();
 }
 
@@ -106,7 +117,7 @@ int run_command_line(int argc, char** argv) {
 
   ServeOptions serve;
   CLI::App* serve_app = app.add_subcommand("serve", "Serve the dashboard, the API and the stream");
-  add_world(*serve_app, serve.robot, serve.plant, serve.seed);
+  add_world(*serve_app, serve.world);
   serve_app->get_option("--robot")->capture_default_str();
   serve_app->add_option("--host", serve.host, "Address to listen on")->capture_default_str();
   serve_app->add_option("--port", serve.port, "Port to listen on; 0 for any free one")
@@ -124,7 +135,7 @@ int run_command_line(int argc, char** argv) {
 
   RunOptions run;
   CLI::App* run_app = app.add_subcommand("run", "Walk without a server, as fast as possible");
-  add_world(*run_app, run.robot, run.plant, run.seed);
+  add_world(*run_app, run.world);
   run_app->get_option("--robot")->required();
   run_app->add_option("--seconds", run.seconds, "Simulated time [s]")
       ->check(between(0.001, 86400.0))

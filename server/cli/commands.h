@@ -7,14 +7,23 @@
 
 #include "engine/parameters.h"
 #include "server/cli/folders.h"
-#include "sim/plant/plant.h"
+#include "server/json/senses_json.h"
+#include "server/robot_library.h"
+#include "sim/simulation.h"
 
 namespace stagger::server {
 
-struct ServeOptions {
-  std::string robot = "kasaei";
+/// The world that `serve` and `run` build.
+struct WorldOptions {
+  std::string robot;
   std::string plant = "bullet";
   std::uint64_t seed = 1;
+  std::string state{name_of_state({})};
+  std::int64_t control_delay_ms = server::control_delay_ms({});
+};
+
+struct ServeOptions {
+  WorldOptions world{.robot = "kasaei"};
   bool stand = false;
   std::string host = "127.0.0.1";
   int port = 8080;
@@ -24,9 +33,7 @@ struct ServeOptions {
 };
 
 struct RunOptions {
-  std::string robot;
-  std::string plant = "bullet";
-  std::uint64_t seed = 1;
+  WorldOptions world;
   double seconds = 60.0;
   engine::WalkCommand walk;
   bool json = false;
@@ -77,6 +84,10 @@ struct LimitsOptions {
   std::string markdown;  ///< file for the page; empty: none
   std::string command;   ///< as it was typed, for the page
 };
+
+/// The configuration; its robot is null, after a message on standard error, when there is none of
+/// that name.
+sim::SimulationConfig world_of(const WorldOptions& options, RobotLibrary& robots);
 
 /// Serves the dashboard, the API and the stream until SIGTERM or SIGINT.
 int serve_command(const ServeOptions& options, const Folders& folders);

@@ -5,22 +5,14 @@
 #include "server/cli/cli.h"
 #include "server/cli/commands.h"
 #include "server/json/gait_json.h"
-#include "server/robot_library.h"
 #include "sim/simulation.h"
 
 namespace stagger::server {
 
 int run_command(const RunOptions& options, const Folders& folders) {
   RobotLibrary library(folders.robots);
-  const auto robot = library.find(options.robot);
-  if (robot == nullptr) {
-    std::cerr << "stagger: --robot " << library.unknown(options.robot) << '\n';
-    return exit_usage;
-  }
-  sim::SimulationConfig config;
-  config.robot = robot;
-  config.plant = plant_of(options.plant).value_or(sim::PlantKind::bullet);
-  config.seed = options.seed;
+  const sim::SimulationConfig config = world_of(options.world, library);
+  if (config.robot == nullptr) return exit_usage;
   sim::Simulation simulation(config);
   simulation.walk(options.walk);
 
@@ -37,24 +29,23 @@ int run_command(const RunOptions& options, const Folders& folders) {
   const double seconds = static_cast<double>(ticks) * sim::Simulation::tick_s;
   const double factor = seconds / std::max(wall.count(), 1e-9);
   if (options.json) {
-    std::cout << Json{{"robot", options.robot},
-                      {"plant", options.plant},
-                      {"seed", options.seed},
-                      {"seconds", seconds},
-                      {"walk", walk_json(options.walk)},
-                      {"ticks", ticks},
-                      {"fell", frame.fallen},
-                      {"fall_reason", frame.fallen ? Json(simulation.fall_reason()) : Json()},
-                      {"steps", frame.step_count},
-                      {"distance_m", std::hypot(frame.com.x(), frame.com.y())},
-                      {"worst_dcm_error_m", simulation.worst_dcm_error()},
-                      {"real_time_factor", factor},
-                      {"state_hash", sim::to_hex(simulation.state_hash())},
-                      {"version", STAGGER_VERSION}}
-                     .dump(2)
-              << '\n';
+    Json json{
+        {"robot", config.robot->name}, {"plant", name_of(config.plant)}, {"seed", config.seed}};
+    write_senses(json, config.plant, config.senses);
+    json.update({{"seconds", seconds},
+                 {"walk", walk_json(options.walk)},
+                 {"ticks", ticks},
+                 {"fell", frame.fallen},
+                 {"fall_reason", frame.fallen ? Json(simulation.fall_reason()) : Json()},
+                 {"steps", frame.step_count},
+                 {"distance_m", std::hypot(frame.com.x(), frame.com.y())},
+                 {"worst_dcm_error_m", simulation.worst_dcm_error()},
+                 {"real_time_factor", factor},
+                 {"state_hash", sim::to_hex(simulation.state_hash())},
+                 {"version", STAGGER_VERSION}});
+    std::cout << json.dump(2) << '\n';
   } else {
-    std::cout << options.robot << " on " << options.plant << ", " << seconds << " s: "
+    std::cout << options.world.robot << " on " << options.world.plant << ", " << seconds << " s: "
               << (frame.fallen ? "fell: " + simulation.fall_reason() : std::string("stayed up"))
               << "; " << frame.step_count << " steps, worst DCM error "
               << simulation.worst_dcm_error() << " m, " << factor << " x real time\n";

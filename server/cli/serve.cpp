@@ -13,7 +13,6 @@
 #include "server/http/routes/routes.h"
 #include "server/http/security.h"
 #include "server/http/stream.h"
-#include "server/json/gait_json.h"
 
 namespace stagger::server {
 namespace {
@@ -77,14 +76,8 @@ int serve_command(const ServeOptions& options, const Folders& folders) {
   StopSignals signals;
 
   RobotLibrary robots(folders.robots);
-  sim::SimulationConfig config;
-  config.robot = robots.find(options.robot);
-  if (config.robot == nullptr) {
-    std::cerr << "stagger: --robot " << robots.unknown(options.robot) << '\n';
-    return exit_usage;
-  }
-  config.plant = plant_of(options.plant).value_or(sim::PlantKind::bullet);
-  config.seed = options.seed;
+  const sim::SimulationConfig config = world_of(options.world, robots);
+  if (config.robot == nullptr) return exit_usage;
 
   FrameHub hub;
   LiveSession session(config, hub, !options.stand);

@@ -2,6 +2,7 @@
 
 #include "server/json/gait_json.h"
 #include "server/json/push_json.h"
+#include "server/json/senses_json.h"
 #include "sim/state_hash.h"
 
 namespace stagger::server {
@@ -36,6 +37,7 @@ sim::TrialSpec read_trial(const nlohmann::json& body, sim::JsonErrors& errors) {
       reader.refuse("stand", "is true; allowed: false, or a walk of velocity 0");
     }
     spec.strategies = read_strategy_names(reader, "strategies").value_or(spec.strategies);
+    spec.senses = read_senses(reader, spec.senses);
     spec.settle_s = reader.number_or("settle_s", spec.settle_s, Range::between(0.0, 60.0, "s"));
     spec.observe_s = reader.number_or("observe_s", spec.observe_s, Range::between(0.0, 60.0, "s"));
     reader.optional_object("push", [&](sim::JsonReader& push) { spec.push = read_push(push); });
@@ -44,10 +46,16 @@ sim::TrialSpec read_trial(const nlohmann::json& body, sim::JsonErrors& errors) {
 }
 
 Json trial_spec_json(const sim::TrialSpec& spec) {
-  Json json{{"robot", spec.robot},       {"plant", name_of(spec.plant)},
-            {"seed", spec.seed},         {"walk", walk_json(spec.walk)},
-            {"stand", spec.stand},       {"strategies", strategy_names_json(spec.strategies)},
-            {"settle_s", spec.settle_s}, {"observe_s", spec.observe_s}};
+  Json json{{"robot", spec.robot},
+            {"plant", name_of(spec.plant)},
+            {"seed", spec.seed},
+            {"walk", walk_json(spec.walk)},
+            {"stand", spec.stand},
+            {"strategies", strategy_names_json(spec.strategies)}};
+  // The pendulum has neither; and what is written here is read again.
+  if (spec.plant == sim::PlantKind::bullet) write_senses(json, spec.plant, spec.senses);
+  json["settle_s"] = spec.settle_s;
+  json["observe_s"] = spec.observe_s;
   if (spec.push) json["push"] = push_spec_json(*spec.push);
   return json;
 }

@@ -239,6 +239,7 @@ SessionState LiveSession::describe() const {
   state.fallen = frame.fallen;
   state.fall_reason = world_->fall_reason();
   state.strategies = strategies_;
+  state.senses = world_->config().senses;
   state.walk = walk_;
   state.step_count = frame.step_count;
   state.worst_dcm_error_m = world_->worst_dcm_error();

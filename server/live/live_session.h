@@ -44,6 +44,7 @@ struct SessionState {
   bool fallen = false;
   std::string fall_reason;
   engine::Strategies strategies;
+  sim::SenseParameters senses;
   engine::WalkCommand walk;
   std::uint64_t step_count = 0;
   double worst_dcm_error_m = 0.0;

@@ -19,7 +19,7 @@ std::uint64_t ticks_of(double seconds) {
 }  // namespace
 
 TrialResult run_trial(const TrialSpec& spec, std::shared_ptr<const Robot> robot) {
-  Simulation simulation({std::move(robot), spec.plant, spec.seed, spec.strategies});
+  Simulation simulation({std::move(robot), spec.plant, spec.seed, spec.strategies, spec.senses});
   if (!spec.stand) simulation.walk(spec.walk);
   TrialResult result;
 

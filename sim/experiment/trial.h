@@ -7,6 +7,7 @@
 #include <string>
 
 #include "engine/parameters.h"
+#include "sim/control/senses.h"
 #include "sim/plant/plant.h"
 #include "sim/plant/push.h"
 #include "sim/robot/robot.h"
@@ -20,6 +21,7 @@ struct TrialSpec {
   engine::WalkCommand walk;
   bool stand = false;  ///< no walk command: it stands, is pushed, and is to stand again
   engine::Strategies strategies;
+  SenseParameters senses;  ///< of the full body
   double settle_s = 3.0;   ///< walking or standing before the push may start [s]
   double observe_s = 4.0;  ///< after the push has ended [s]
   std::optional<PushSpec> push;

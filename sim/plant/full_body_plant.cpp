@@ -19,68 +19,138 @@ PhysicsParameters physics(double dt) {
   return parameters;
 }
 
+const SenseParameters& valid(const SenseParameters& senses) {
+  validate(senses);
+  return senses;
+}
+
 }  // namespace
 
-FullBodyPlant::FullBodyPlant(std::shared_ptr<const Robot> robot, double dt)
+FullBodyPlant::FullBodyPlant(std::shared_ptr<const Robot> robot, double dt,
+                             const SenseParameters& senses, std::uint64_t seed)
     : robot_(std::move(robot)),
+      senses_(valid(senses)),
       world_(robot_->model, nominal_state(*robot_), physics(dt)),
+      sensors_(*robot_, senses.sensors, seed, dt, world_.parameters().gravity, world_.state()),
+      estimator_(*robot_, senses.sensors, dt, world_.parameters().gravity, world_.state()),
       body_(robot_->model),
+      true_body_(robot_->model),
       controller_(*robot_) {
-  torque_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(robot_->model.joint_count()));
-  measure();
+  const auto joints = static_cast<Eigen::Index>(robot_->model.joint_count());
+  torque_ = Eigen::VectorXd::Zero(joints);
+  torque_ring_.assign(static_cast<std::size_t>(std::lround(senses.control_delay / dt)), torque_);
+  body_.update(world_.state(), world_.parameters().gravity);
+  true_body_.update(world_.state(), world_.parameters().gravity);
+  place_robot(body_, measurement_);
   // Before the first step no contact has been solved: it stands with half its weight on each foot.
   measurement_.zmp = measurement_.com.head<2>();
   measurement_.foot_load.fill(0.5 * body_.mass() * world_.parameters().gravity);
+  truth_ = measurement_;
 }
 
-void FullBodyPlant::measure() {
-  body_.update(world_.state(), world_.parameters().gravity);
-  measurement_.com = body_.com();
-  measurement_.com_velocity = body_.com_velocity();
+void FullBodyPlant::place_robot(const RigidBody& body, engine::Measurement& measurement) const {
+  measurement.com = body.com();
+  measurement.com_velocity = body.com_velocity();
   for (const Side side : {Side::left, Side::right}) {
-    const Eigen::Isometry3d sole = body_.pose(robot_->foot_body(side)) * robot_->sole_in_body(side);
-    FootPose& foot = measurement_.feet[engine::index(side)];
+    const Eigen::Isometry3d sole = body.pose(robot_->foot_body(side)) * robot_->sole_in_body(side);
+    FootPose& foot = measurement.feet[engine::index(side)];
     foot.position = sole.translation();
     foot.yaw = std::atan2(sole.linear()(1, 0), sole.linear()(0, 0));
   }
-  measurement_.foot_load.fill(0.0);
+}
+
+void FullBodyPlant::read_loads() {
+  PerFoot<Eigen::Isometry3d> world_to_sole;
+  for (const Side side : {Side::left, Side::right}) {
+    const Eigen::Isometry3d foot = true_body().pose(robot_->foot_body(side));
+    world_to_sole[engine::index(side)] = (foot * robot_->sole_in_body(side)).inverse();
+  }
+  truth_.foot_load.fill(0.0);
+  sole_loads_.fill(SoleLoad());
   double load = 0.0;
   Vec2 moment = Vec2::Zero();
   for (const BulletWorld::Contact& contact : world_.contacts()) {
     load += contact.force.z();
     moment += contact.force.z() * contact.point.head<2>();
     for (const Side side : {Side::left, Side::right}) {
-      if (contact.body == robot_->foot_body(side)) {
-        measurement_.foot_load[engine::index(side)] += contact.force.z();
-      }
+      const std::size_t i = engine::index(side);
+      if (contact.body != robot_->foot_body(side)) continue;
+      truth_.foot_load[i] += contact.force.z();
+      const double force = world_to_sole[i].linear().row(2).dot(contact.force);
+      sole_loads_[i].force += force;
+      sole_loads_[i].cop += force * (world_to_sole[i] * contact.point).head<2>();
     }
   }
+  if (load > 0.0) truth_.zmp = moment / load;
+  for (SoleLoad& sole : sole_loads_) {
+    if (sole.force > 0.0) sole.cop /= sole.force;
+  }
+}
+
+void FullBodyPlant::sense() {
+  const double gravity = world_.parameters().gravity;
+  if (senses_.perfect_state) {
+    body_.update(world_.state(), gravity);
+    place_robot(body_, truth_);
+    read_loads();
+    measurement_ = truth_;
+    return;
+  }
+  true_body_.update(world_.state(), gravity);
+  place_robot(true_body_, truth_);
+  read_loads();
+  const SensorReadings& readings = sensors_.read(world_.state(), sole_loads_);
+  estimator_.update(readings);
+  body_.update(estimator_.state(), gravity);
+  place_robot(body_, measurement_);
+  double load = 0.0;
+  Vec2 moment = Vec2::Zero();
+  for (const Side side : {Side::left, Side::right}) {
+    const std::size_t i = engine::index(side);
+    const SoleLoad& sole = readings.soles[i];
+    const double force = std::max(sole.force, 0.0);
+    const Eigen::Isometry3d foot = body_.pose(robot_->foot_body(side)) * robot_->sole_in_body(side);
+    measurement_.foot_load[i] = force;
+    load += force;
+    moment += force * (foot * Vec3(sole.cop.x(), sole.cop.y(), 0.0)).head<2>();
+  }
   if (load > 0.0) measurement_.zmp = moment / load;
+}
+
+const Eigen::VectorXd& FullBodyPlant::delayed(const Eigen::VectorXd& torque) {
+  if (torque_ring_.empty()) return torque;
+  // The motors have held the robot before; they go on so until the first command reaches them.
+  if (!commanded_) std::fill(torque_ring_.begin(), torque_ring_.end(), torque);
+  commanded_ = true;
+  torque_ = torque_ring_[next_torque_];
+  torque_ring_[next_torque_] = torque;
+  next_torque_ = (next_torque_ + 1) % torque_ring_.size();
+  return torque_;
 }
 
 void FullBodyPlant::step(const engine::WalkingTargets& targets,
                          std::span<const AppliedForce> forces) {
   if (released_) {
     torque_ = -limp_damping * world_.state().qd;
+    world_.step(torque_, forces);
   } else {
-    torque_ = controller_.compute(body_, world_.state(), targets);
+    world_.step(delayed(controller_.compute(body_, known_state(), targets)), forces);
   }
-  world_.step(torque_, forces);
-  measure();
+  sense();
 }
 
 void FullBodyPlant::describe(Frame& frame) const {
   const RobotState& state = world_.state();
   const double omega =
       std::sqrt(world_.parameters().gravity / robot_->description.walk.com_height_m);
-  frame.com = measurement_.com;
-  frame.com_velocity = measurement_.com_velocity;
-  frame.dcm = measurement_.com.head<2>() + measurement_.com_velocity.head<2>() / omega;
-  frame.zmp = measurement_.zmp;
+  frame.com = truth_.com;
+  frame.com_velocity = truth_.com_velocity;
+  frame.dcm = truth_.com.head<2>() + truth_.com_velocity.head<2>() / omega;
+  frame.zmp = truth_.zmp;
   frame.base_position = state.base_position;
   frame.base_orientation = state.base_orientation;
-  frame.feet = measurement_.feet;
-  frame.foot_load = measurement_.foot_load;
+  frame.feet = truth_.feet;
+  frame.foot_load = truth_.foot_load;
   frame.joint_count = std::min(robot_->model.joint_count(), max_joints);
   const auto count = static_cast<Eigen::Index>(frame.joint_count);
   std::copy_n(state.q.data(), count, frame.joint_position.begin());
@@ -94,11 +164,11 @@ Vec3 FullBodyPlant::point_of(const AppliedForce& force) const {
 }
 
 std::string FullBodyPlant::fall_reason() const {
-  if (measurement_.com.z() < fall_height_share * robot_->description.walk.com_height_m) {
+  if (truth_.com.z() < fall_height_share * robot_->description.walk.com_height_m) {
     return "the centre of mass is too low";
   }
   const LinkPlace& torso = robot_->model.links.at(robot_->description.torso);
-  const Vec3 up = body_.rotation(torso.body) * torso.pose.linear().col(2);
+  const Vec3 up = true_body().rotation(torso.body) * torso.pose.linear().col(2);
   if (std::acos(std::clamp(up.z(), -1.0, 1.0)) > fall_tilt) return "the torso leans too far";
   for (const BulletWorld::Contact& contact : world_.contacts()) {
     const bool is_foot = contact.body == robot_->foot_body(Side::left) ||

@@ -2,7 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
+#include "sim/control/estimator.h"
+#include "sim/control/senses.h"
+#include "sim/control/sensors.h"
 #include "sim/control/whole_body_controller.h"
 #include "sim/plant/bullet_world.h"
 #include "sim/plant/plant.h"
@@ -11,10 +15,12 @@
 
 namespace stagger::sim {
 
-/// State is read from the physics without error: there is no estimator yet.
+/// Control sees the estimate of the state, or the state itself where the senses are perfect.
 class FullBodyPlant final : public Plant {
  public:
-  FullBodyPlant(std::shared_ptr<const Robot> robot, double dt);
+  /// The seed is that of the sensors. Throws std::invalid_argument for senses that are not valid.
+  FullBodyPlant(std::shared_ptr<const Robot> robot, double dt, const SenseParameters& senses,
+                std::uint64_t seed);
 
   const engine::Measurement& measurement() const override { return measurement_; }
   void step(const engine::WalkingTargets& targets, std::span<const AppliedForce> forces) override;
@@ -25,15 +31,32 @@ class FullBodyPlant final : public Plant {
   void mix_state(StateHash& hash) const override;
 
   const WholeBodyController& controller() const { return controller_; }
+  const Estimator& estimator() const { return estimator_; }
 
  private:
-  void measure();
+  const RobotState& known_state() const {
+    return senses_.perfect_state ? world_.state() : estimator_.state();
+  }
+  const RigidBody& true_body() const { return senses_.perfect_state ? body_ : true_body_; }
+  void sense();
+  void place_robot(const RigidBody& body, engine::Measurement& measurement) const;
+  void read_loads();
+  const Eigen::VectorXd& delayed(const Eigen::VectorXd& torque);
 
   std::shared_ptr<const Robot> robot_;
+  SenseParameters senses_;
   BulletWorld world_;
-  RigidBody body_;
+  Sensors sensors_;
+  Estimator estimator_;
+  RigidBody body_;       ///< as control knows it
+  RigidBody true_body_;  ///< kept up where control does not know it
   WholeBodyController controller_;
   engine::Measurement measurement_;
+  engine::Measurement truth_;
+  PerFoot<SoleLoad> sole_loads_;              ///< true
+  std::vector<Eigen::VectorXd> torque_ring_;  ///< on their way to the motors
+  std::size_t next_torque_ = 0;
+  bool commanded_ = false;
   Eigen::VectorXd torque_;
   bool released_ = false;
 };

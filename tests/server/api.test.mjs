@@ -18,7 +18,7 @@ test('health and readiness', async () => {
 
 test('the state tells all that is documented', async () => {
   const state = await server.state();
-  const fields = `session_id robot plant seed tick time_s running walking_state walking fallen
+  const fields = `session_id robot plant seed state control_delay_ms tick time_s running walking_state walking fallen
     fall_reason strategies step_count worst_dcm_error_m real_time_factor late_ticks
     worst_lateness_ms stream state_hash version`;
   for (const field of fields.split(/\s+/)) assert.ok(field in state, field);
@@ -161,6 +161,8 @@ test('values out of range are refused', async () => {
     ['/api/v1/simulation/reset', { plant: 'mujoco' }, '/plant'],
     ['/api/v1/simulation/reset', { robot: 'nobody' }, '/robot'],
     ['/api/v1/simulation/reset', { seed: -1 }, '/seed'],
+    ['/api/v1/simulation/reset', { state: 'exact' }, '/state'],
+    ['/api/v1/simulation/reset', { control_delay_ms: 11 }, '/control_delay_ms'],
   ]) {
     const answer = await server.post(target, body);
     refused(answer, 422);
@@ -257,6 +259,23 @@ test('a page is served', async () => {
   assert.match(page.headers['content-type'], /^text\/html/);
   assert.equal(page.headers['cache-control'], 'no-cache');
   assert.equal((await server.get('/../../etc/passwd')).status, 404);
+});
+
+test('a reset chooses what control knows, and it stays so', async () => {
+  await server.pause();
+  const senses = async () => {
+    const { state, control_delay_ms: delay } = await server.state();
+    return [state, delay];
+  };
+  assert.deepEqual(await senses(), [null, null]); // the pendulum
+  await server.post('/api/v1/simulation/reset',
+    { plant: 'bullet', state: 'perfect', control_delay_ms: 4 });
+  assert.deepEqual(await senses(), ['perfect', 4]);
+  await server.post('/api/v1/simulation/reset', {});
+  assert.deepEqual(await senses(), ['perfect', 4]);
+  await server.post('/api/v1/simulation/reset', { state: 'estimated', control_delay_ms: 1 });
+  assert.deepEqual(await senses(), ['estimated', 1]);
+  await server.post('/api/v1/simulation/reset', { plant: 'lipm' });
 });
 
 test('a reset is a new session in which the robot stands', async () => {

@@ -24,7 +24,8 @@ test('bad options end with 2', async () => {
   for (const args of [[], ['fly'], ['run'], ['run', '--robot', 'kasaei', '--vx', '1'],
     ['run', '--robot', 'kasaei', '--vx', 'nan'], ['run', '--robot', 'nobody'],
     ['run', '--robot', 'kasaei', '--seconds', '-1'], ['serve', '--port', '70000'],
-    ['serve', '--robot', 'nobody'], ['serve', '--plant', 'mujoco'], ['trial', '/no/such/file']]) {
+    ['serve', '--robot', 'nobody'], ['serve', '--plant', 'mujoco'], ['serve', '--state', 'exact'],
+    ['run', '--robot', 'kasaei', '--control-delay-ms', '11'], ['trial', '/no/such/file']]) {
     const { code, stderr } = await command(args);
     assert.equal(code, 2, args.join(' '));
     assert.notEqual(stderr, '', args.join(' '));
@@ -60,6 +61,18 @@ test('run on the full body', async () => {
   const result = JSON.parse(stdout);
   assert.equal(result.plant, 'bullet');
   assert.equal(code, result.fell ? 1 : 0);
+  assert.deepEqual([result.state, result.control_delay_ms], ['estimated', 1]);
+});
+
+test('run with perfect knowledge and late torques', async () => {
+  const run = async (...args) => JSON.parse((await command(
+    ['run', '--robot', 'kasaei', '--seconds', '0.2', '--json', ...args])).stdout);
+  const result = await run('--state', 'perfect', '--control-delay-ms', '5');
+  assert.deepEqual([result.state, result.control_delay_ms], ['perfect', 5]);
+  assert.notEqual(result.state_hash, (await run('--state', 'perfect')).state_hash);
+  assert.notEqual(result.state_hash, (await run('--control-delay-ms', '5')).state_hash);
+  const lipm = await run('--plant', 'lipm');
+  assert.deepEqual([lipm.state, lipm.control_delay_ms], [null, null]);
 });
 
 test('the same trial twice gives the same result to the bit', async () => {

@@ -25,6 +25,8 @@ TEST(TrialJson, OnlyTheRobotIsRequired) {
   EXPECT_EQ(spec.plant, sim::PlantKind::bullet);
   EXPECT_EQ(spec.seed, 1U);
   EXPECT_TRUE(spec.strategies.ankle && spec.strategies.step && spec.strategies.time);
+  EXPECT_FALSE(spec.senses.perfect_state);
+  EXPECT_EQ(spec.senses.control_delay, 0.001);
   EXPECT_FALSE(spec.push);
   EXPECT_THAT(errors_of("{}"), UnorderedElementsAre("/robot"));
 }
@@ -87,6 +89,30 @@ TEST(TrialJson, AResolvedTrialReadsBackTheSame) {
   EXPECT_TRUE(errors.empty());
   EXPECT_EQ(resolved, again);
   EXPECT_EQ(resolved["seed"], 9);
+}
+
+TEST(TrialJson, EveryResultSaysWhatControlKnewAndHowLateItActed) {
+  sim::JsonErrors errors;
+  const sim::TrialSpec spec = read_trial(
+      sim::parse_json(R"({"robot":"a","state":"perfect","control_delay_ms":7})"), errors);
+  EXPECT_TRUE(spec.senses.perfect_state);
+  EXPECT_NEAR(spec.senses.control_delay, 0.007, 1e-12);
+  const Json echo = trial_result_json({}, spec)["spec"];
+  EXPECT_EQ(echo["state"], "perfect");
+  EXPECT_EQ(echo["control_delay_ms"], 7);
+  const Json plain = trial_spec_json(read_trial(sim::parse_json(R"({"robot":"a"})"), errors));
+  EXPECT_EQ(plain["state"], "estimated");
+  EXPECT_EQ(plain["control_delay_ms"], 1);
+  // The pendulum has neither, and does not say that it had.
+  const Json lipm =
+      trial_spec_json(read_trial(sim::parse_json(R"({"robot":"a","plant":"lipm"})"), errors));
+  EXPECT_FALSE(lipm.contains("state"));
+  EXPECT_FALSE(lipm.contains("control_delay_ms"));
+  EXPECT_TRUE(errors.empty());
+  EXPECT_THAT(errors_of(R"({"robot":"a","state":"exact","control_delay_ms":11})"),
+              UnorderedElementsAre("/state", "/control_delay_ms"));
+  EXPECT_THAT(errors_of(R"({"robot":"a","control_delay_ms":1.5})"),
+              UnorderedElementsAre("/control_delay_ms"));
 }
 
 TEST(TrialJson, WhatDidNotHappenIsNull) {

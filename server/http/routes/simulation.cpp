@@ -2,6 +2,7 @@
 #include "server/http/routes/body.h"
 #include "server/http/routes/routes.h"
 #include "server/json/gait_json.h"
+#include "server/json/senses_json.h"
 #include "sim/state_hash.h"
 
 namespace stagger::server {
@@ -10,31 +11,33 @@ namespace {
 Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 Json state_json(const SessionState& state, const StreamCounters& stream) {
-  return {{"session_id", state.session_id},
-          {"robot", state.robot},
-          {"plant", name_of(state.plant)},
-          {"seed", state.seed},
-          {"tick", state.tick},
-          {"time_s", state.time_s},
-          {"running", state.running},
-          {"walking_state", name_of(state.walking_state)},
-          {"walking", state.walking_state != sim::WalkingState::idle && !state.fallen},
-          {"walk", walk_json(state.walk)},
-          {"fallen", state.fallen},
-          {"fall_reason", text_or_null(state.fall_reason)},
-          {"strategies", strategies_json(state.strategies)},
-          {"step_count", state.step_count},
-          {"worst_dcm_error_m", state.worst_dcm_error_m},
-          {"real_time_factor", state.real_time_factor},
-          {"late_ticks", state.late_ticks},
-          {"worst_lateness_ms", state.worst_lateness_ms},
-          {"stream",
-           {{"clients", stream.clients},
-            {"dropped_clients", stream.dropped_clients},
-            {"dropped_messages", stream.dropped_messages}}},
-          {"state_hash", sim::to_hex(state.state_hash)},
-          {"error", text_or_null(state.error)},
-          {"version", STAGGER_VERSION}};
+  Json json{{"session_id", state.session_id},
+            {"robot", state.robot},
+            {"plant", name_of(state.plant)},
+            {"seed", state.seed}};
+  write_senses(json, state.plant, state.senses);
+  json.update({{"tick", state.tick},
+               {"time_s", state.time_s},
+               {"running", state.running},
+               {"walking_state", name_of(state.walking_state)},
+               {"walking", state.walking_state != sim::WalkingState::idle && !state.fallen},
+               {"walk", walk_json(state.walk)},
+               {"fallen", state.fallen},
+               {"fall_reason", text_or_null(state.fall_reason)},
+               {"strategies", strategies_json(state.strategies)},
+               {"step_count", state.step_count},
+               {"worst_dcm_error_m", state.worst_dcm_error_m},
+               {"real_time_factor", state.real_time_factor},
+               {"late_ticks", state.late_ticks},
+               {"worst_lateness_ms", state.worst_lateness_ms},
+               {"stream",
+                {{"clients", stream.clients},
+                 {"dropped_clients", stream.dropped_clients},
+                 {"dropped_messages", stream.dropped_messages}}},
+               {"state_hash", sim::to_hex(state.state_hash)},
+               {"error", text_or_null(state.error)},
+               {"version", STAGGER_VERSION}});
+  return json;
 }
 
 HttpResponse reset(const HttpRequest& request, Services& services) {
@@ -46,6 +49,7 @@ HttpResponse reset(const HttpRequest& request, Services& services) {
     robot = reader.string_or("robot", present.robot);
     config.plant = read_plant(reader).value_or(present.plant);
     config.seed = read_seed(reader).value_or(present.seed);
+    config.senses = read_senses(reader, present.senses);
   });
   config.robot = services.robots.find(robot);
   if (config.robot == nullptr) {
