@@ -2,33 +2,51 @@
 
 #include <algorithm>
 
+#include "sim/control/whole_body_gains.h"
+#include "sim/robot/biped_proportions.h"
+#include "sim/robot/dynamic_scale.h"
+
 namespace stagger::sim {
 
 engine::Parameters engine_parameters(const Robot& robot, PlantKind plant,
                                      const engine::Strategies& strategies, double tick) {
   const BipedDescription& d = robot.description;
+  const DynamicScale scale = dynamic_scale(robot);
+  const double time = scale.time();
   engine::Parameters p;
   p.tick = tick;
   p.com_height = d.walk.com_height_m;
+  p.mass = robot.model.mass();
   p.t_ss = d.walk.t_ss_s;
-  p.least_t_ss = std::min(p.least_t_ss, p.t_ss);
+  p.least_t_ss = std::min(p.least_t_ss * time, p.t_ss);
   p.t_ds = d.walk.t_ds_s;
   p.t_init = d.walk.t_init_s;
   p.stance_width = d.walk.stance_width_m;
   p.swing_height = d.walk.swing_height_m;
   p.foot_half_length = 0.5 * d.feet[0].sole.length;
   p.foot_half_width = 0.5 * d.feet[0].sole.width;
+  p.foot_clearance *= scale.length;
   p.max_step_length = d.walk.max_step_length_m;
   p.min_step_width = d.walk.min_step_width_m;
   p.max_step_width = d.walk.max_step_width_m;
   p.strategies = strategies;
 
   // Both plants report their state without noise, so the filter follows the measurement closely.
-  p.process_noise = 1e-6;
-  p.measurement_noise = 1e-8;
-  p.step_margin = 0.01;
-  // The whole-body controller keeps its corner forces this far inside the sole.
-  if (plant == PlantKind::bullet) p.sole_margin = 0.005;
+  p.process_noise = 1e-6 * scale.length * scale.length;
+  p.measurement_noise = 1e-8 * scale.length * scale.length;
+  // The weight of an integral over time is one per squared time.
+  p.lqr_state_weight[2] /= time * time;
+  p.step_margin = 0.01 * scale.length;
+  p.step_freeze *= time;
+  p.time_limit *= time;
+  p.time_constant *= time;
+  p.contact_load *= scale.mass;
+  p.landing_patience *= time;
+  if (plant == PlantKind::bullet) {
+    // The whole-body controller keeps its corner forces this far inside the sole.
+    p.sole_margin = whole_body_gains(robot).sole_margin;
+    p.ankle_reach = p.ankle_reach.cwiseMin(ankle_zmp_reach(robot, p.gravity));
+  }
   return p;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/robot/dynamic_scale.h"
+
 namespace stagger::sim {
 namespace {
 
@@ -10,7 +12,7 @@ namespace {
 constexpr double fall_height_share = 0.6;
 /// Torso leaning more than this [rad].
 constexpr double fall_tilt = 1.0;
-/// Damping of the joints of a robot that has gone limp [N m s].
+/// Damping of the joints of a robot that has gone limp, at 30 kg and 1 m [N m s].
 constexpr double limp_damping = 2.0;
 
 PhysicsParameters physics(double dt) {
@@ -25,7 +27,8 @@ FullBodyPlant::FullBodyPlant(std::shared_ptr<const Robot> robot, double dt)
     : robot_(std::move(robot)),
       world_(robot_->model, nominal_state(*robot_), physics(dt)),
       body_(robot_->model),
-      controller_(*robot_) {
+      controller_(*robot_),
+      limp_damping_(limp_damping * dynamic_scale(*robot_).damping()) {
   torque_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(robot_->model.joint_count()));
   measure();
   // Before the first step no contact has been solved: it stands with half its weight on each foot.
@@ -61,7 +64,7 @@ void FullBodyPlant::measure() {
 void FullBodyPlant::step(const engine::WalkingTargets& targets,
                          std::span<const AppliedForce> forces) {
   if (released_) {
-    torque_ = -limp_damping * world_.state().qd;
+    torque_ = -limp_damping_ * world_.state().qd;
   } else {
     torque_ = controller_.compute(body_, world_.state(), targets);
   }

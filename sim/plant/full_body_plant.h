@@ -35,6 +35,7 @@ class FullBodyPlant final : public Plant {
   WholeBodyController controller_;
   engine::Measurement measurement_;
   Eigen::VectorXd torque_;
+  double limp_damping_;  ///< [N m s]
   bool released_ = false;
 };
 

@@ -5,9 +5,12 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "engine/parameters.h"
 #include "sim/frame.h"
 #include "sim/json_file.h"
+#include "sim/robot/dynamic_scale.h"
 #include "sim/robot/urdf_import.h"
+#include "sim/robot/walk_defaults.h"
 
 namespace stagger::sim {
 namespace {
@@ -50,6 +53,28 @@ class Checker {
       return;
     }
     check_soles_level();
+  }
+
+  /// Whether the widths go together, given or by formula.
+  void check_widths() {
+    const WalkDescription& walk = robot_.description.walk;
+    const double sole_width = robot_.description.feet[0].sole.width;
+    const double clearance = engine::Parameters().foot_clearance * dynamic_scale(robot_).length;
+    std::ostringstream text;
+    if (walk.min_step_width_m < sole_width + clearance) {
+      text << "is " << walk.min_step_width_m
+           << " m, which leaves no gap between the soles; allowed: at least the sole's width and "
+           << clearance << " m";
+      errors_.add("/walk/min_step_width_m", text.str());
+    } else if (walk.min_step_width_m > walk.stance_width_m) {
+      text << "is " << walk.min_step_width_m << " m; allowed: at most stance_width_m ("
+           << walk.stance_width_m << " m)";
+      errors_.add("/walk/min_step_width_m", text.str());
+    } else if (walk.max_step_width_m < walk.stance_width_m) {
+      text << "is " << walk.max_step_width_m << " m; allowed: at least stance_width_m ("
+           << walk.stance_width_m << " m)";
+      errors_.add("/walk/max_step_width_m", text.str());
+    }
   }
 
  private:
@@ -142,7 +167,11 @@ std::shared_ptr<const Robot> load_robot(const std::filesystem::path& folder) {
       in.refuse("urdf", "has " + std::to_string(robot->model.joint_count()) +
                             " moving joints; allowed: at most " + std::to_string(max_joints));
     }
-    Checker(*robot, in.errors()).run();
+    Checker checker(*robot, in.errors());
+    checker.run();
+    if (!in.errors().empty()) return;
+    robot->description.walk = robot->description.given_walk.over(walk_defaults(*robot));
+    checker.check_widths();
   });
   return robot;
 }
