@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "sim/control/whole_body_gains.h"
-#include "sim/robot/biped_proportions.h"
 #include "sim/robot/dynamic_scale.h"
+#include "sim/robot/legs.h"
 
 namespace stagger::sim {
 

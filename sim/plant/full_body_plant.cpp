@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/robot/dynamic_scale.h"
+#include "sim/robot/posture.h"
 
 namespace stagger::sim {
 namespace {
@@ -25,7 +26,7 @@ PhysicsParameters physics(double dt) {
 
 FullBodyPlant::FullBodyPlant(std::shared_ptr<const Robot> robot, double dt)
     : robot_(std::move(robot)),
-      world_(robot_->model, nominal_state(*robot_), physics(dt)),
+      world_(robot_->model, walking_state(*robot_), physics(dt)),
       body_(robot_->model),
       controller_(*robot_),
       limp_damping_(limp_damping * dynamic_scale(*robot_).damping()) {

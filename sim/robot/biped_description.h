@@ -27,7 +27,7 @@ struct FootDescription {
 
 /// Walking parameters that suit this robot; they fill the engine's Parameters.
 struct WalkDescription {
-  double com_height_m = 0.0;  ///< above the soles, in the nominal pose and while walking
+  double com_height_m = 0.0;  ///< above the soles, while walking
   double stance_width_m = 0.0;
   double swing_height_m = 0.0;
   double t_ss_s = 0.0;

@@ -188,14 +188,10 @@ std::vector<std::string> list_robots(const std::filesystem::path& robots) {
   return names;
 }
 
-RobotState nominal_state(const Robot& robot) {
+RobotState standing_state(const Robot& robot, const Eigen::VectorXd& q) {
   RobotState state;
-  const auto joints = static_cast<Eigen::Index>(robot.model.joint_count());
-  state.q = Eigen::VectorXd::Zero(joints);
-  state.qd = Eigen::VectorXd::Zero(joints);
-  for (const auto& [joint, angle] : robot.description.nominal_pose) {
-    state.q[robot.model.joint_index(joint)] = angle;
-  }
+  state.q = q;
+  state.qd = Eigen::VectorXd::Zero(q.size());
   const auto sole = [&](Side side) -> Eigen::Isometry3d {
     return body_poses(robot.model, state)[robot.foot_body(side)] * robot.sole_in_body(side);
   };
@@ -203,6 +199,14 @@ RobotState nominal_state(const Robot& robot) {
   state.base_orientation = Eigen::Quaterniond::FromTwoVectors(up, Vec3::UnitZ());
   state.base_position = -0.5 * (sole(Side::left).translation() + sole(Side::right).translation());
   return state;
+}
+
+RobotState nominal_state(const Robot& robot) {
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(robot.model.joint_count()));
+  for (const auto& [joint, angle] : robot.description.nominal_pose) {
+    q[robot.model.joint_index(joint)] = angle;
+  }
+  return standing_state(robot, q);
 }
 
 }  // namespace stagger::sim
