@@ -1,5 +1,7 @@
 #include "server/json/robot_json.h"
 
+#include "sim/robot/posture.h"
+
 namespace stagger::server {
 
 Json robot_json(const sim::Robot& robot) {
@@ -8,7 +10,8 @@ Json robot_json(const sim::Robot& robot) {
   const sim::SoleDescription& sole = robot.description.feet[0].sole;
   return {{"name", robot.name},
           {"mass_kg", robot.model.mass()},
-          {"com_height_m", robot.description.walk.com_height_m},
+          {"com_height_m", sim::nominal_com_height(robot)},
+          {"walking_com_height_m", robot.description.walk.com_height_m},
           {"base_link", robot.model.bodies.front().name},
           {"sole", {{"length_m", sole.length}, {"width_m", sole.width}}},
           {"links", std::move(links)},

@@ -117,6 +117,12 @@ RobotState lowered_state(const Robot& robot, const Height& height, double most) 
   return Bending(robot, height).until(most);
 }
 
+double nominal_com_height(const Robot& robot) {
+  RigidBody body(robot.model);
+  body.update(nominal_state(robot));
+  return body.com().z();
+}
+
 RobotState walking_state(const Robot& robot) {
   return lowered_state(
       robot, [](const RigidBody& body) { return body.com().z(); },

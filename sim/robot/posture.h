@@ -17,6 +17,9 @@ using Height = std::function<double(const RigidBody&)>;
 /// or that cannot bend so far within its limits.
 RobotState lowered_state(const Robot& robot, const Height& height, double most);
 
+/// Of the CoM above the soles in the nominal pose [m].
+double nominal_com_height(const Robot& robot);
+
 /// At rest with the CoM as high as the robot walks, or in the nominal pose if that is lower.
 RobotState walking_state(const Robot& robot);
 

@@ -170,7 +170,11 @@ std::shared_ptr<const Robot> load_robot(const std::filesystem::path& folder) {
     Checker checker(*robot, in.errors());
     checker.run();
     if (!in.errors().empty()) return;
-    robot->description.walk = robot->description.given_walk.over(walk_defaults(*robot));
+    const GivenWalk& given = robot->description.given_walk;
+    BipedProportions proportions = biped_proportions(*robot);
+    proportions.com_height = given.com_height_m.value_or(proportions.com_height);
+    proportions.stance_width = given.stance_width_m.value_or(proportions.stance_width);
+    robot->description.walk = given.over(walk_defaults(proportions));
     checker.check_widths();
   });
   return robot;

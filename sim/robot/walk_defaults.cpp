@@ -59,8 +59,4 @@ WalkDescription walk_defaults(const BipedProportions& p) {
   return walk;
 }
 
-WalkDescription walk_defaults(const Robot& robot) {
-  return walk_defaults(biped_proportions(robot));
-}
-
 }  // namespace stagger::sim

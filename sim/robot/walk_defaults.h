@@ -26,7 +26,4 @@ BipedProportions biped_proportions(const Robot& robot);
 /// source names what chose it.
 WalkDescription walk_defaults(const BipedProportions& proportions);
 
-/// The same from the robot's model and nominal pose; its description's walk is not looked at.
-WalkDescription walk_defaults(const Robot& robot);
-
 }  // namespace stagger::sim
