@@ -113,7 +113,7 @@ std::string_view name_of(sim::PushState state) {
 
 sim::PushSpec read_push(sim::JsonReader& reader) {
   sim::PushSpec push;
-  push.link = reader.string_or("link", push.link);
+  push.link = reader.string_or("link", {});
   push.point = reader.optional_vec3("point", Range::between(-10.0, 10.0, "m"));
   push.direction = read_direction(reader);
   push.duration_s =

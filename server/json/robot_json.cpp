@@ -13,13 +13,14 @@ Json robot_json(const sim::Robot& robot) {
           {"com_height_m", sim::nominal_com_height(robot)},
           {"walking_com_height_m", robot.description.walk.com_height_m},
           {"base_link", robot.model.bodies.front().name},
+          {"torso_link", robot.description.torso},
           {"sole", {{"length_m", sole.length}, {"width_m", sole.width}}},
           {"links", std::move(links)},
           {"joints", robot.model.joint_names()}};
 }
 
 std::optional<std::string> check_link(const std::string& link, const sim::Robot& robot) {
-  if (robot.model.links.contains(link)) return std::nullopt;
+  if (link.empty() || robot.model.links.contains(link)) return std::nullopt;
   std::string text = "is \"" + link + "\"; links of " + robot.name + ":";
   for (const auto& [name, place] : robot.model.links) text += " " + name;
   return text;
