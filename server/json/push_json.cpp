@@ -128,7 +128,7 @@ sim::PushSpec read_push(sim::JsonReader& reader) {
 
 Json push_spec_json(const sim::PushSpec& push) {
   Json json;
-  json["link"] = push.link;
+  if (!push.link.empty()) json["link"] = push.link;
   if (push.point) json["point"] = vector_json(*push.point);
   json["direction"] = vector_json(push.direction);
   json["impulse_ns"] = push.impulse_ns;
