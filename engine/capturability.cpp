@@ -5,6 +5,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/step_limits.h"
+
 namespace stagger::engine {
 namespace {
 
@@ -36,8 +38,7 @@ ConvexSet before(const StepAbility& ability, const ConvexSet& end, double earlie
 }  // namespace
 
 StepAbility step_ability(const Parameters& p, const ReachRegion& reach, bool free_times) {
-  const double x = p.foot_half_length - p.sole_margin;
-  const double y = p.foot_half_width - p.sole_margin;
+  const auto [x, y] = usable_sole(p);
   StepAbility ability;
   ability.omega = natural_frequency(p);
   ability.sole = {{-x, -y}, {x, -y}, {x, y}, {-x, y}};

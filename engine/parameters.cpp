@@ -56,6 +56,8 @@ void validate_ranges(const Parameters& p) {
   within("foot_half_length", p.foot_half_length, 1e-4, 2.0, "m");
   within("foot_half_width", p.foot_half_width, 1e-4, 2.0, "m");
   within("sole_margin", p.sole_margin, 0.0, 1.0, "m");
+  within("ankle_reach (length)", p.ankle_reach.x(), 1e-4, unlimited, "m");
+  within("ankle_reach (width)", p.ankle_reach.y(), 1e-4, unlimited, "m");
 
   within("max_step_length", p.max_step_length, 1e-3, 5.0, "m");
   within("min_step_width", p.min_step_width, -5.0, 5.0, "m");

@@ -46,6 +46,9 @@ struct Parameters {
   double foot_half_length = 0.075;  ///< [m]
   double foot_half_width = 0.0375;  ///< [m]
   double sole_margin = 0.0;  ///< kept free inside the sole's edge when the ZMP is clamped [m]
+  /// An ankle of little torque moves the ZMP no farther than this from the sole's centre, along the
+  /// sole's length and its width [m].
+  Vec2 ankle_reach{1e9, 1e9};
 
   double max_step_length = 0.95;  ///< |x| of a step in the stance foot's frame [m]
   double min_step_width = 0.10;   ///< least lateral distance of the feet [m]

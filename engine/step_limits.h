@@ -1,6 +1,8 @@
 // What one step may be: reach of the leg, turn of the foot, distance between the soles.
 #pragma once
 
+#include <algorithm>
+
 #include "engine/parameters.h"
 #include "engine/reach.h"
 #include "engine/support_polygon.h"
@@ -17,6 +19,12 @@ enum class StepFault : std::uint8_t {
 
 /// The sole that keeps its distance: all of it, whatever margin the ZMP keeps inside.
 inline Sole whole_sole(const Parameters& p) { return {p.foot_half_length, p.foot_half_width}; }
+
+/// The part of it that the ZMP may be in.
+inline Sole usable_sole(const Parameters& p) {
+  return {std::min(p.foot_half_length - p.sole_margin, p.ankle_reach.x()),
+          std::min(p.foot_half_width - p.sole_margin, p.ankle_reach.y())};
+}
 
 /// Can the other foot be put down on `step` while `stance` stands?
 StepFault check_step(const Footstep& stance, const Footstep& step, const ReachRegion& reach,

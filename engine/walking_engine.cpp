@@ -4,6 +4,8 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/step_limits.h"
+
 namespace stagger::engine {
 namespace {
 
@@ -45,8 +47,7 @@ WalkingEngine::WalkingEngine(const Parameters& parameters, const Measurement& st
                              const ReachRegion& reach, Layout)
     : parameters_(valid(parameters)),
       omega_(natural_frequency(parameters)),
-      sole_{parameters.foot_half_length - parameters.sole_margin,
-            parameters.foot_half_width - parameters.sole_margin},
+      sole_(usable_sole(parameters)),
       reach_(reach),
       time_reach_(reach.scaled_length(parameters.time_reach)),
       capture_(parameters, reach),

@@ -60,7 +60,8 @@ void Simulation::set_strategies(const engine::Strategies& strategies) {
   engine_.set_strategies(strategies);
 }
 
-std::uint64_t Simulation::push(const PushSpec& spec) {
+std::uint64_t Simulation::push(PushSpec spec) {
+  if (spec.link.empty()) spec.link = config_.robot->description.torso;
   if (!config_.robot->model.links.contains(spec.link)) {
     throw std::invalid_argument("robot " + config_.robot->name + " has no link '" + spec.link +
                                 "'");

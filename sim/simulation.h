@@ -60,7 +60,7 @@ class Simulation {
 
   /// Adds a push (validated against the robot's links: throws std::invalid_argument for an unknown
   /// link) and returns its id.
-  std::uint64_t push(const PushSpec& spec);
+  std::uint64_t push(PushSpec spec);
   bool cancel_push(std::uint64_t id);
   const std::vector<PushRecord>& pushes() const { return pushes_.records(); }
 

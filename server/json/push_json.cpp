@@ -99,7 +99,7 @@ std::string_view name_of(sim::PushState state) {
 
 sim::PushSpec read_push(sim::JsonReader& reader) {
   sim::PushSpec push;
-  push.link = reader.string_or("link", push.link);
+  push.link = reader.string_or("link", {});
   push.point = reader.optional_vec3("point", Range::between(-10.0, 10.0, "m"));
   push.direction = read_direction(reader);
   push.duration_s =
@@ -114,7 +114,7 @@ sim::PushSpec read_push(sim::JsonReader& reader) {
 
 Json push_spec_json(const sim::PushSpec& push) {
   Json json;
-  json["link"] = push.link;
+  if (!push.link.empty()) json["link"] = push.link;
   if (push.point) json["point"] = vector_json(*push.point);
   json["direction"] = vector_json(push.direction);
   json["impulse_ns"] = push.impulse_ns;

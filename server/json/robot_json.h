@@ -9,11 +9,12 @@
 
 namespace stagger::server {
 
-/// {"name","mass_kg","com_height_m","base_link","sole":{...},"links":[...],"joints":[...]}; the
-/// base link is the one that the channel base_position tells of.
+/// {"name","mass_kg","com_height_m","walking_com_height_m","base_link","torso_link",
+/// "sole":{...},"links":[...],"joints":[...]}; heights of the CoM in the nominal pose and while
+/// walking; the base link is the one that the channel base_position tells of.
 Json robot_json(const sim::Robot& robot);
 
-/// Nothing when the robot has that link; else what to tell whoever asked for it.
+/// Nothing when the robot has that link or none is named; else what to tell whoever asked for it.
 std::optional<std::string> check_link(const std::string& link, const sim::Robot& robot);
 
 }  // namespace stagger::server

@@ -46,12 +46,9 @@ sim::TrialSpec read_trial(const nlohmann::json& body, sim::JsonErrors& errors) {
 }
 
 Json trial_spec_json(const sim::TrialSpec& spec) {
-  Json json{{"robot", spec.robot},
-            {"plant", name_of(spec.plant)},
-            {"seed", spec.seed},
-            {"walk", walk_json(spec.walk)},
-            {"stand", spec.stand},
-            {"strategies", strategy_names_json(spec.strategies)}};
+  Json json{{"robot", spec.robot}, {"plant", name_of(spec.plant)},
+            {"seed", spec.seed},   {"walk", walk_json(spec.walk)},
+            {"stand", spec.stand}, {"strategies", strategy_names_json(spec.strategies)}};
   // The pendulum has neither; and what is written here is read again.
   if (spec.plant == sim::PlantKind::bullet) write_senses(json, spec.plant, spec.senses);
   json["settle_s"] = spec.settle_s;

@@ -21,9 +21,6 @@ Eigen::Matrix3d yaw_rotation(double yaw) {
   return Eigen::AngleAxisd(yaw, Vec3::UnitZ()).toRotationMatrix();
 }
 
-/// Joint torque = -damping * velocity when a solve has failed [N m s].
-constexpr double fallback_damping = 5.0;
-
 }  // namespace
 
 WholeBodyController::WholeBodyController(const Robot& robot, const WholeBodyGains& gains)
@@ -187,6 +184,8 @@ void WholeBodyController::add_foot_task(const RigidBody& body, const Foot& foot,
     weight = gains_.swing_weight;
   }
   wanted -= body.bias_acceleration(foot.body, point);
+  jacobian_.bottomRows<3>() *= gains_.angular_length;
+  wanted.tail<3>() *= gains_.angular_length;
   add_task(weight, jacobian_, wanted);
 }
 
@@ -266,7 +265,7 @@ const Eigen::VectorXd& WholeBodyController::compute(const RigidBody& body, const
 
   if (solver_.solve(problem_) != QpStatus::solved) {
     ++failed_solves_;
-    torque_ = -fallback_damping * state.qd;
+    torque_ = -gains_.fallback_damping * state.qd;
     return torque_;
   }
   const auto& x = solver_.solution();

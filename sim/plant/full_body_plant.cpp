@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/robot/dynamic_scale.h"
+#include "sim/robot/posture.h"
+
 namespace stagger::sim {
 namespace {
 
@@ -10,7 +13,7 @@ namespace {
 constexpr double fall_height_share = 0.6;
 /// Torso leaning more than this [rad].
 constexpr double fall_tilt = 1.0;
-/// Damping of the joints of a robot that has gone limp [N m s].
+/// Damping of the joints of a robot that has gone limp, at 30 kg and 1 m [N m s].
 constexpr double limp_damping = 2.0;
 
 PhysicsParameters physics(double dt) {
@@ -30,12 +33,13 @@ FullBodyPlant::FullBodyPlant(std::shared_ptr<const Robot> robot, double dt,
                              const SenseParameters& senses, std::uint64_t seed)
     : robot_(std::move(robot)),
       senses_(valid(senses)),
-      world_(robot_->model, nominal_state(*robot_), physics(dt)),
+      world_(robot_->model, walking_state(*robot_), physics(dt)),
       sensors_(*robot_, senses.sensors, seed, dt, world_.parameters().gravity, world_.state()),
       estimator_(*robot_, senses.sensors, dt, world_.parameters().gravity, world_.state()),
       body_(robot_->model),
       true_body_(robot_->model),
-      controller_(*robot_) {
+      controller_(*robot_),
+      limp_damping_(limp_damping * dynamic_scale(*robot_).damping()) {
   const auto joints = static_cast<Eigen::Index>(robot_->model.joint_count());
   torque_ = Eigen::VectorXd::Zero(joints);
   torque_ring_.assign(static_cast<std::size_t>(std::lround(senses.control_delay / dt)), torque_);
@@ -131,7 +135,7 @@ const Eigen::VectorXd& FullBodyPlant::delayed(const Eigen::VectorXd& torque) {
 void FullBodyPlant::step(const engine::WalkingTargets& targets,
                          std::span<const AppliedForce> forces) {
   if (released_) {
-    torque_ = -limp_damping * world_.state().qd;
+    torque_ = -limp_damping_ * world_.state().qd;
     world_.step(torque_, forces);
   } else {
     world_.step(delayed(controller_.compute(body_, known_state(), targets)), forces);

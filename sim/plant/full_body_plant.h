@@ -58,6 +58,7 @@ class FullBodyPlant final : public Plant {
   std::size_t next_torque_ = 0;
   bool commanded_ = false;
   Eigen::VectorXd torque_;
+  double limp_damping_;  ///< [N m s]
   bool released_ = false;
 };
 

@@ -38,7 +38,7 @@ struct Immediate {};
 using PushTrigger = std::variant<Immediate, TimeTrigger, PhaseTrigger>;
 
 struct PushSpec {
-  std::string link = "torso";
+  std::string link;           ///< empty: the torso that the robot's description names
   std::optional<Vec3> point;  ///< in the link's frame [m]; the link's centre of mass when empty
   Vec3 direction = Vec3::UnitX();  ///< unit vector in the frame of the robot's heading
   double impulse_ns = 0.0;         ///< integral of the force over the whole push [N s]

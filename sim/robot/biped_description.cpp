@@ -1,6 +1,5 @@
 #include "sim/robot/biped_description.h"
 
-#include "engine/parameters.h"
 #include "sim/json_file.h"
 #include "sim/strict_json.h"
 
@@ -18,32 +17,35 @@ FootDescription read_foot(JsonReader& in) {
   return foot;
 }
 
-/// `sole_width`: of each foot [m].
-WalkDescription read_walk(JsonReader& in, double sole_width) {
-  WalkDescription walk;
-  walk.com_height_m = in.number("com_height_m", Range::between(0.05, 3.0, "m"));
-  walk.stance_width_m = in.number("stance_width_m", Range::between(0.02, 1.0, "m"));
-  walk.swing_height_m = in.number("swing_height_m", Range::between(0.005, 0.5, "m"));
-  walk.t_ss_s = in.number("t_ss_s", Range::between(0.1, 3.0, "s"));
-  walk.t_ds_s = in.number("t_ds_s", Range::between(0.0, 2.0, "s"));
-  walk.t_init_s = in.number("t_init_s", Range::between(0.1, 5.0, "s"));
-  walk.max_step_length_m = in.number("max_step_length_m", Range::between(0.01, 2.0, "m"));
-  walk.min_step_width_m = in.number("min_step_width_m", Range::between(0.0, 1.0, "m"));
-  walk.max_step_width_m = in.number("max_step_width_m", Range::between(0.02, 2.0, "m"));
-  if (walk.min_step_width_m < sole_width + engine::Parameters().foot_clearance) {
-    in.refuse("min_step_width_m",
-              "leaves no gap between the soles; allowed: at least the sole's width and 0.01 m");
-  }
-  if (walk.min_step_width_m > walk.stance_width_m) {
-    in.refuse("min_step_width_m", "is greater than stance_width_m; allowed: at most that");
-  }
-  if (walk.max_step_width_m < walk.stance_width_m) {
-    in.refuse("max_step_width_m", "is less than stance_width_m; allowed: at least that");
-  }
+GivenWalk read_walk(JsonReader& in) {
+  GivenWalk walk;
+  walk.com_height_m = in.optional_number("com_height_m", Range::between(0.05, 3.0, "m"));
+  walk.stance_width_m = in.optional_number("stance_width_m", Range::between(0.02, 1.0, "m"));
+  walk.swing_height_m = in.optional_number("swing_height_m", Range::between(0.005, 0.5, "m"));
+  walk.t_ss_s = in.optional_number("t_ss_s", Range::between(0.1, 3.0, "s"));
+  walk.t_ds_s = in.optional_number("t_ds_s", Range::between(0.0, 2.0, "s"));
+  walk.t_init_s = in.optional_number("t_init_s", Range::between(0.1, 5.0, "s"));
+  walk.max_step_length_m = in.optional_number("max_step_length_m", Range::between(0.01, 2.0, "m"));
+  walk.min_step_width_m = in.optional_number("min_step_width_m", Range::between(0.0, 1.0, "m"));
+  walk.max_step_width_m = in.optional_number("max_step_width_m", Range::between(0.02, 2.0, "m"));
   return walk;
 }
 
 }  // namespace
+
+WalkDescription GivenWalk::over(const WalkDescription& defaults) const {
+  WalkDescription walk;
+  walk.com_height_m = com_height_m.value_or(defaults.com_height_m);
+  walk.stance_width_m = stance_width_m.value_or(defaults.stance_width_m);
+  walk.swing_height_m = swing_height_m.value_or(defaults.swing_height_m);
+  walk.t_ss_s = t_ss_s.value_or(defaults.t_ss_s);
+  walk.t_ds_s = t_ds_s.value_or(defaults.t_ds_s);
+  walk.t_init_s = t_init_s.value_or(defaults.t_init_s);
+  walk.max_step_length_m = max_step_length_m.value_or(defaults.max_step_length_m);
+  walk.min_step_width_m = min_step_width_m.value_or(defaults.min_step_width_m);
+  walk.max_step_width_m = max_step_width_m.value_or(defaults.max_step_width_m);
+  return walk;
+}
 
 BipedDescription read_biped_description(JsonReader& in) {
   BipedDescription biped;
@@ -56,8 +58,7 @@ BipedDescription read_biped_description(JsonReader& in) {
     feet.object("right", [&](JsonReader& foot) { biped.feet[1] = read_foot(foot); });
   });
   biped.nominal_pose = in.numbers("nominal_pose", Range::between(-6.3, 6.3, "rad"));
-  in.object("walk",
-            [&](JsonReader& walk) { biped.walk = read_walk(walk, biped.feet[0].sole.width); });
+  in.optional_object("walk", [&](JsonReader& walk) { biped.given_walk = read_walk(walk); });
   return biped;
 }
 

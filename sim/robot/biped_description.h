@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "engine/types.h"
@@ -26,7 +27,7 @@ struct FootDescription {
 
 /// Walking parameters that suit this robot; they fill the engine's Parameters.
 struct WalkDescription {
-  double com_height_m = 0.0;  ///< above the soles, in the nominal pose and while walking
+  double com_height_m = 0.0;  ///< above the soles, while walking
   double stance_width_m = 0.0;
   double swing_height_m = 0.0;
   double t_ss_s = 0.0;
@@ -37,6 +38,22 @@ struct WalkDescription {
   double max_step_width_m = 0.0;
 };
 
+/// The same as a description gives them; what it leaves out follows by formula (walk_defaults.h).
+struct GivenWalk {
+  std::optional<double> com_height_m;
+  std::optional<double> stance_width_m;
+  std::optional<double> swing_height_m;
+  std::optional<double> t_ss_s;
+  std::optional<double> t_ds_s;
+  std::optional<double> t_init_s;
+  std::optional<double> max_step_length_m;
+  std::optional<double> min_step_width_m;
+  std::optional<double> max_step_width_m;
+
+  /// `defaults` with what is given in their place.
+  WalkDescription over(const WalkDescription& defaults) const;
+};
+
 /// robots/<name>/robot.json
 struct BipedDescription {
   int version = 1;
@@ -45,7 +62,8 @@ struct BipedDescription {
   std::string torso;  ///< link that is kept upright and that pushes act on by default
   engine::PerFoot<FootDescription> feet;
   std::map<std::string, double> nominal_pose;  ///< joint -> angle [rad]; joints not named are at 0
-  WalkDescription walk;
+  GivenWalk given_walk;
+  WalkDescription walk;  ///< complete: load_robot() fills it
 };
 
 /// Reads robot.json. Links and joints are only names here: load_robot() checks them against the

@@ -5,9 +5,12 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "engine/parameters.h"
 #include "sim/frame.h"
 #include "sim/json_file.h"
+#include "sim/robot/dynamic_scale.h"
 #include "sim/robot/urdf_import.h"
+#include "sim/robot/walk_defaults.h"
 
 namespace stagger::sim {
 namespace {
@@ -50,6 +53,28 @@ class Checker {
       return;
     }
     check_soles_level();
+  }
+
+  /// Whether the widths go together, given or by formula.
+  void check_widths() {
+    const WalkDescription& walk = robot_.description.walk;
+    const double sole_width = robot_.description.feet[0].sole.width;
+    const double clearance = engine::Parameters().foot_clearance * dynamic_scale(robot_).length;
+    std::ostringstream text;
+    if (walk.min_step_width_m < sole_width + clearance) {
+      text << "is " << walk.min_step_width_m
+           << " m, which leaves no gap between the soles; allowed: at least the sole's width and "
+           << clearance << " m";
+      errors_.add("/walk/min_step_width_m", text.str());
+    } else if (walk.min_step_width_m > walk.stance_width_m) {
+      text << "is " << walk.min_step_width_m << " m; allowed: at most stance_width_m ("
+           << walk.stance_width_m << " m)";
+      errors_.add("/walk/min_step_width_m", text.str());
+    } else if (walk.max_step_width_m < walk.stance_width_m) {
+      text << "is " << walk.max_step_width_m << " m; allowed: at least stance_width_m ("
+           << walk.stance_width_m << " m)";
+      errors_.add("/walk/max_step_width_m", text.str());
+    }
   }
 
  private:
@@ -142,7 +167,15 @@ std::shared_ptr<const Robot> load_robot(const std::filesystem::path& folder) {
       in.refuse("urdf", "has " + std::to_string(robot->model.joint_count()) +
                             " moving joints; allowed: at most " + std::to_string(max_joints));
     }
-    Checker(*robot, in.errors()).run();
+    Checker checker(*robot, in.errors());
+    checker.run();
+    if (!in.errors().empty()) return;
+    const GivenWalk& given = robot->description.given_walk;
+    BipedProportions proportions = biped_proportions(*robot);
+    proportions.com_height = given.com_height_m.value_or(proportions.com_height);
+    proportions.stance_width = given.stance_width_m.value_or(proportions.stance_width);
+    robot->description.walk = given.over(walk_defaults(proportions));
+    checker.check_widths();
   });
   return robot;
 }
@@ -159,14 +192,10 @@ std::vector<std::string> list_robots(const std::filesystem::path& robots) {
   return names;
 }
 
-RobotState nominal_state(const Robot& robot) {
+RobotState standing_state(const Robot& robot, const Eigen::VectorXd& q) {
   RobotState state;
-  const auto joints = static_cast<Eigen::Index>(robot.model.joint_count());
-  state.q = Eigen::VectorXd::Zero(joints);
-  state.qd = Eigen::VectorXd::Zero(joints);
-  for (const auto& [joint, angle] : robot.description.nominal_pose) {
-    state.q[robot.model.joint_index(joint)] = angle;
-  }
+  state.q = q;
+  state.qd = Eigen::VectorXd::Zero(q.size());
   const auto sole = [&](Side side) -> Eigen::Isometry3d {
     return body_poses(robot.model, state)[robot.foot_body(side)] * robot.sole_in_body(side);
   };
@@ -174,6 +203,14 @@ RobotState nominal_state(const Robot& robot) {
   state.base_orientation = Eigen::Quaterniond::FromTwoVectors(up, Vec3::UnitZ());
   state.base_position = -0.5 * (sole(Side::left).translation() + sole(Side::right).translation());
   return state;
+}
+
+RobotState nominal_state(const Robot& robot) {
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(robot.model.joint_count()));
+  for (const auto& [joint, angle] : robot.description.nominal_pose) {
+    q[robot.model.joint_index(joint)] = angle;
+  }
+  return standing_state(robot, q);
 }
 
 }  // namespace stagger::sim

@@ -31,8 +31,11 @@ std::shared_ptr<const Robot> load_robot(const std::filesystem::path& folder);
 /// Names of the robots in a folder of robots, sorted.
 std::vector<std::string> list_robots(const std::filesystem::path& robots);
 
-/// At rest in the nominal pose: soles on the ground (z = 0), their mid-point at the world's origin,
-/// heading along x. The base is turned so that the left sole is flat.
+/// At rest with these joint angles: soles on the ground (z = 0), their mid-point at the world's
+/// origin, heading along x. The base is turned so that the left sole is flat.
+RobotState standing_state(const Robot& robot, const Eigen::VectorXd& q);
+
+/// The same in the nominal pose.
 RobotState nominal_state(const Robot& robot);
 
 }  // namespace stagger::sim

@@ -44,6 +44,8 @@ const std::vector<Field>& fields() {
       {"foot_half_length", [](Parameters& p) -> double& { return p.foot_half_length; }, 0.0},
       {"foot_half_width", [](Parameters& p) -> double& { return p.foot_half_width; }, 0.0},
       {"sole_margin", [](Parameters& p) -> double& { return p.sole_margin; }, -0.001},
+      {"ankle_reach (length)", [](Parameters& p) -> double& { return p.ankle_reach.x(); }, 0.0},
+      {"ankle_reach (width)", [](Parameters& p) -> double& { return p.ankle_reach.y(); }, 0.0},
       {"max_step_length", [](Parameters& p) -> double& { return p.max_step_length; }, 0.0},
       {"min_step_width", [](Parameters& p) -> double& { return p.min_step_width; }, 0.08},
       {"max_step_width", [](Parameters& p) -> double& { return p.max_step_width; }, 0.19},

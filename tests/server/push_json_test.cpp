@@ -35,7 +35,7 @@ std::vector<std::string> pointers(const Read& read) {
 TEST(PushJson, FillsInTheDefaults) {
   const Read r = read(R"({"impulse_ns":12.5})");
   ASSERT_TRUE(r.errors.empty());
-  EXPECT_EQ(r.push.link, "torso");
+  EXPECT_EQ(r.push.link, "");  // the robot's torso
   EXPECT_FALSE(r.push.point);
   EXPECT_EQ(r.push.direction, sim::Vec3::UnitX());
   EXPECT_EQ(r.push.impulse_ns, 12.5);

@@ -156,7 +156,8 @@ TEST(LoadRobot, RefusesNumbersOutOfRange) {
 TEST(LoadRobot, RefusesAStepWidthThatLeavesNoGapBetweenTheSoles) {
   ChangedRobot robot;
   robot.description["walk"]["min_step_width_m"] = 0.08;
-  EXPECT_THAT(robot.error(), HasSubstr("/walk/min_step_width_m leaves no gap between the soles"));
+  EXPECT_THAT(robot.error(),
+              HasSubstr("/walk/min_step_width_m is 0.08 m, which leaves no gap between the soles"));
 }
 
 TEST(LoadRobot, RefusesAPoseThatCannotBeStoodIn) {

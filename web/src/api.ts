@@ -90,6 +90,8 @@ export interface RobotInfo {
   readonly joints: readonly string[];
   /** Link that base_position tells of; empty: the root of the URDF. */
   readonly baseLink: string;
+  /** Link that pushes act on by default. */
+  readonly torsoLink: string;
   readonly sole: { readonly lengthM: number; readonly widthM: number };
 }
 
@@ -160,6 +162,7 @@ export function parseRobot(value: unknown): RobotInfo {
     links: asNames(body['links']),
     joints: asNames(body['joints']),
     baseLink: asString(body['base_link']),
+    torsoLink: asString(body['torso_link']),
     sole: {
       lengthM: asNumber(sole['length_m'], paperSole.lengthM),
       widthM: asNumber(sole['width_m'], paperSole.widthM),

@@ -148,7 +148,7 @@ export class PushPanel {
   private robotChanged(): void {
     const { robot } = this.store;
     const links = robot === null || robot.links.length === 0 ? ['torso'] : robot.links;
-    fillSelect(this.link, links, 'torso');
+    fillSelect(this.link, links, robot?.torsoLink ?? 'torso');
     this.showEquals();
   }
 
@@ -196,7 +196,7 @@ export class PushPanel {
     const what = row.insertCell();
     what.textContent =
       `${push.id}. ${formatShort(push.impulseNs, 3)} N s ${directionName(push.directionDeg)}` +
-      (push.link === 'torso' ? '' : `, ${push.link}`);
+      (push.link === (this.store.robot?.torsoLink ?? 'torso') ? '' : `, ${push.link}`);
     row.insertCell().textContent = push.state;
     const last = row.insertCell();
     if (push.state === 'scheduled') {

@@ -1,0 +1,48 @@
+// Weights and gains of the whole-body controller, and how they follow a robot's size.
+#pragma once
+
+#include "sim/robot/robot.h"
+
+namespace stagger::sim {
+
+/// The defaults are for 30 kg with the CoM at 1 m. First chosen by the push scores of a biped of
+/// that size on the same controller; the push sweep in tests/bench measures them. Stiffness in
+/// 1/s^2, damping in 1/s.
+struct WholeBodyGains {
+  double com_weight = 1000.0;  ///< horizontal CoM acceleration w^2 (c - p - hip's shift)
+  double height_weight = 100.0;
+  double height_stiffness = 100.0;
+  double height_damping = 20.0;
+  double momentum_weight = 0.01;  ///< rate of angular momentum that the hip strategy asks for
+  double torso_weight = 1.0;      ///< low: the hips may lean to help the balance
+  double torso_stiffness = 300.0;
+  double torso_damping = 35.0;
+  double swing_weight = 30.0;
+  double swing_stiffness = 1500.0;
+  double swing_damping = 75.0;
+  double swing_acceleration_limit = 100.0;  ///< [m/s^2]
+  double stance_weight = 1e4;
+  double stance_damping = 60.0;
+  double angular_length = 1.0;  ///< what an angle of a foot counts as against a length [m]
+  double acceleration_regularisation = 1e-2;
+  double force_regularisation = 1e-6;
+  double friction = 0.5;  ///< of each axis of the pyramid; its corner (0.71) is below the plant's
+  double sole_margin = 0.005;       ///< corners lie this far inside the sole [m]
+  double least_normal_force = 0.5;  ///< per corner [N]
+  double limit_weight = 100.0;      ///< braking of a joint before the end of its range
+  double limit_braking = 200.0;     ///< by this it can be stopped there [rad/s^2]
+  double limit_damping = 100.0;     ///< for a joint that is faster than that [1/s]
+  double limit_return = 400.0;      ///< for a joint beyond its margin [1/s^2]
+  double limit_margin = 0.05;       ///< before the end of the range [rad]
+  /// The CoM sinks rather than let a leg be longer than this share of its length.
+  double leg_stretch = 0.97;
+  double fallback_damping = 5.0;  ///< joint torque per velocity when a solve has failed [N m s]
+};
+
+/// The defaults carried over to this robot (dynamic_scale.h), so that a robot of another size does
+/// the same, only at its own size and pace: stiffnesses and dampings with its natural frequency,
+/// forces with its weight. Weights of linear accelerations stay, since accelerations do not scale;
+/// those of angular ones, and of joints, follow the square of a length.
+WholeBodyGains whole_body_gains(const Robot& robot);
+
+}  // namespace stagger::sim

@@ -1,0 +1,94 @@
+// Tier 3: every robot that is shipped stands, steps, walks and takes pushes in Bullet. Speeds,
+// times and pushes are each robot's own: scaled with its size.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "sim/experiment/trial.h"
+#include "sim/simulation.h"
+
+namespace stagger::sim {
+namespace {
+
+class FullBodyRobots : public ::testing::TestWithParam<const char*> {
+ protected:
+  double height() const { return robot->description.walk.com_height_m; }
+  double time() const { return std::sqrt(height()); }   // [s] where the reference robot takes 1 s
+  double speed() const { return std::sqrt(height()); }  // [m/s] likewise
+
+  /// Runs for that long; `command` none: it stands.
+  Frame after(double seconds, const std::optional<engine::WalkCommand>& command) {
+    SimulationConfig config;
+    config.robot = robot;
+    Simulation simulation(config);
+    if (command) simulation.walk(*command);
+    for (int i = 0; i < std::lround(seconds / Simulation::tick_s); ++i) simulation.step();
+    EXPECT_EQ(simulation.fall_reason(), "");
+    worst_dcm_error = simulation.worst_dcm_error();
+    return simulation.frame();
+  }
+
+  std::shared_ptr<const Robot> robot = load_robot(std::string("robots/") + GetParam());
+  double worst_dcm_error = 0.0;
+};
+
+INSTANTIATE_TEST_SUITE_P(Shipped, FullBodyRobots, ::testing::Values("op3", "g1", "h1_2"));
+
+TEST_P(FullBodyRobots, Stands) {
+  const Frame frame = after(5.0, {});
+  EXPECT_LT(worst_dcm_error, 0.01 * height());
+  EXPECT_NEAR(frame.com.z(), height(), 0.01 * height());
+  EXPECT_LT(frame.com_velocity.norm(), 0.01 * speed());
+}
+
+TEST_P(FullBodyRobots, StepsInPlaceCloseToItsPlan) {
+  const Frame frame = after(10.0, engine::WalkCommand());
+  EXPECT_GT(frame.step_count, 16 / time());
+  EXPECT_LT(worst_dcm_error, 0.02 * height());
+  EXPECT_LT(frame.com.head<2>().norm(), 0.1 * height());
+  EXPECT_NEAR(frame.com.z(), height(), 0.02 * height());
+}
+
+TEST_P(FullBodyRobots, WalksAtTheCommandedVelocity) {
+  for (const Vec2& v : {Vec2(0.3, 0.0), Vec2(-0.2, 0.0), Vec2(0.0, 0.15)}) {
+    const double seconds = 8.0;
+    const Vec2 command = speed() * v;
+    const Frame frame = after(seconds, engine::WalkCommand{command.x(), command.y(), 0.0});
+    const Vec2 velocity = frame.com.head<2>() / (seconds - time());  // less the start
+    EXPECT_LT((velocity - command).norm(), 0.15 * command.norm()) << v.transpose();
+  }
+}
+
+TEST_P(FullBodyRobots, Turns) {
+  const double rate = 0.4;
+  const Frame frame = after(6.0, engine::WalkCommand{0.0, 0.0, rate});
+  EXPECT_NEAR(frame.feet[0].yaw, rate * 6.0, 0.4);
+  EXPECT_LT(frame.com.head<2>().norm(), 0.1 * height());
+}
+
+TEST_P(FullBodyRobots, TakesAPushFromEverySide) {
+  const double gait = 2.0 * (robot->description.walk.t_ss_s + robot->description.walk.t_ds_s);
+  int moment = 0;
+  for (int degrees = 0; degrees < 360; degrees += 45) {
+    TrialSpec spec;
+    spec.robot = GetParam();
+    spec.settle_s = 3.0 * time();
+    spec.observe_s = 3.0 * time();
+    spec.push = PushSpec();
+    const double angle = degrees * M_PI / 180.0;
+    spec.push->direction = {std::cos(angle), std::sin(angle), 0.0};
+    // The change of the CoM's velocity over sqrt(g h).
+    const double froude = 0.08;
+    spec.push->impulse_ns = froude * std::sqrt(9.81 * height()) * robot->model.mass();
+    spec.push->duration_s = 0.01;
+    spec.push->trigger = TimeTrigger{spec.settle_s + 0.25 * (moment++ % 4) * gait};
+    const TrialResult result = run_trial(spec, robot);
+    EXPECT_EQ(result.outcome, TrialOutcome::recovered) << degrees << " deg: " << result.reason;
+    // It names no link: it is the torso's.
+    EXPECT_NEAR(result.delivered_ns, spec.push->impulse_ns, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace stagger::sim
