@@ -19,6 +19,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/plant/body_pairs.h"
 #include "sim/plant/motor_limits.h"
 
 namespace stagger::sim {
@@ -89,6 +90,37 @@ std::unique_ptr<btCollisionShape> make_shape(const Shape& shape) {
   return result;
 }
 
+/// Bullet asks it which pairs of objects may collide at all.
+struct PairFilter final : btOverlapFilterCallback {
+  explicit PairFilter(const RobotModel& model) : pairs(model) {}
+
+  bool needBroadphaseCollision(btBroadphaseProxy* first, btBroadphaseProxy* second) const override {
+    if ((first->m_collisionFilterGroup & second->m_collisionFilterMask) == 0 ||
+        (second->m_collisionFilterGroup & first->m_collisionFilterMask) == 0) {
+      return false;
+    }
+    const btMultiBodyLinkCollider* a = link(*first);
+    const btMultiBodyLinkCollider* b = link(*second);
+    return a == nullptr || b == nullptr || pairs.may_touch(a->m_link + 1, b->m_link + 1);
+  }
+  static const btMultiBodyLinkCollider* link(const btBroadphaseProxy& proxy) {
+    return btMultiBodyLinkCollider::upcast(
+        static_cast<const btCollisionObject*>(proxy.m_clientObject));
+  }
+
+  BodyPairs pairs;
+};
+
+/// Sees whether two objects touch.
+struct TouchProbe final : btCollisionWorld::ContactResultCallback {
+  btScalar addSingleResult(btManifoldPoint& point, const btCollisionObjectWrapper*, int, int,
+                           const btCollisionObjectWrapper*, int, int) override {
+    touches |= point.getDistance() <= 0.0;
+    return 0.0;
+  }
+  bool touches = false;
+};
+
 void mix(StateHash& hash, const Vec3& v) {
   for (const double x : {v.x(), v.y(), v.z()}) hash.mix(x);
 }
@@ -98,12 +130,14 @@ void mix(StateHash& hash, const Vec3& v) {
 // Members are destroyed last to first: the world goes before what it points to.
 struct BulletWorld::Impl {
   Impl(const RobotModel& model_in, const PhysicsParameters& parameters_in)
-      : model(model_in), parameters(parameters_in) {}
+      : model(model_in), parameters(parameters_in), filter(model_in) {}
 
   void make_world();
   void make_ground();
   void make_robot();
   void make_collider(int body, const Eigen::Isometry3d& pose);
+  void separate_touching_pairs();
+  void add_colliders();
   void make_joint_limits();
   void place(const RobotState& start);
   void apply_torque(const Eigen::VectorXd& torque);
@@ -130,6 +164,7 @@ struct BulletWorld::Impl {
   std::vector<Contact> contacts;
 
   std::vector<std::unique_ptr<btCollisionShape>> shapes;
+  PairFilter filter;
   btDefaultCollisionConfiguration configuration;
   std::unique_ptr<btCollisionDispatcher> dispatcher;
   btDbvtBroadphase broadphase;
@@ -145,6 +180,7 @@ void BulletWorld::Impl::make_world() {
   dispatcher = std::make_unique<btCollisionDispatcher>(&configuration);
   world = std::make_unique<btMultiBodyDynamicsWorld>(dispatcher.get(), &broadphase, &solver,
                                                      &configuration);
+  world->getPairCache()->setOverlapFilterCallback(&filter);
   world->setGravity(btVector3(0.0, 0.0, -parameters.gravity));
   btContactSolverInfo& info = world->getSolverInfo();
   info.m_numIterations = parameters.iterations;
@@ -188,7 +224,7 @@ void BulletWorld::Impl::make_robot() {
   robot->setAngularDamping(0.0);
   robot->setCanSleep(false);
   robot->setMaxCoordinateVelocity(max_coordinate_velocity);
-  robot->setHasSelfCollision(false);
+  robot->setHasSelfCollision(parameters.self_collision);
 }
 
 void BulletWorld::Impl::make_collider(int body, const Eigen::Isometry3d& pose) {
@@ -214,9 +250,24 @@ void BulletWorld::Impl::make_collider(int body, const Eigen::Isometry3d& pose) {
   } else {
     robot->getLink(body - 1).m_collider = collider.get();
   }
-  world->addCollisionObject(collider.get(), pieces.empty() ? stand_in_group : robot_group,
-                            pieces.empty() ? 0 : ground_group);
   colliders.push_back(std::move(collider));
+}
+
+void BulletWorld::Impl::separate_touching_pairs() {
+  for (const auto& [first, second] : filter.pairs.list()) {
+    TouchProbe probe;
+    world->contactPairTest(colliders[first].get(), colliders[second].get(), probe);
+    if (probe.touches) filter.pairs.forbid(first, second);
+  }
+}
+
+void BulletWorld::Impl::add_colliders() {
+  const int partners = parameters.self_collision ? ground_group | robot_group : ground_group;
+  for (std::size_t i = 0; i < colliders.size(); ++i) {
+    const bool stand_in = model.bodies[i].shapes.empty();
+    world->addCollisionObject(colliders[i].get(), stand_in ? stand_in_group : robot_group,
+                              stand_in ? 0 : partners);
+  }
 }
 
 void BulletWorld::Impl::make_joint_limits() {
@@ -293,6 +344,7 @@ void BulletWorld::Impl::read_contacts() {
     const btMultiBodyLinkCollider* second = btMultiBodyLinkCollider::upcast(manifold.getBody1());
     const btMultiBodyLinkCollider* collider = first ? first : second;
     if (!collider) continue;
+    const int other = first && second ? second->m_link + 1 : Contact::ground;
     // Impulses act on body 0, the normal points to it; body 1 gets the opposite.
     const double sign = (first ? 1.0 : -1.0) / parameters.dt;
     for (int i = 0; i < manifold.getNumContacts(); ++i) {
@@ -302,7 +354,7 @@ void BulletWorld::Impl::read_contacts() {
                                 point.m_lateralFrictionDir1 * point.m_appliedImpulseLateral1 +
                                 point.m_lateralFrictionDir2 * point.m_appliedImpulseLateral2;
       const btVector3& where = first ? point.getPositionWorldOnA() : point.getPositionWorldOnB();
-      contacts.push_back({collider->m_link + 1, to_eigen(where), sign * to_eigen(impulse)});
+      contacts.push_back({collider->m_link + 1, to_eigen(where), sign * to_eigen(impulse), other});
     }
   }
 }
@@ -321,6 +373,8 @@ BulletWorld::BulletWorld(const RobotModel& model, const RobotState& start,
   impl_->place(start);
   const auto poses = body_poses(model, start);
   for (int i = 0; i <= joints; ++i) impl_->make_collider(i, poses[i]);
+  if (parameters.self_collision) impl_->separate_touching_pairs();
+  impl_->add_colliders();
   impl_->world->addMultiBody(impl_->robot.get());
   impl_->make_joint_limits();
 }
@@ -350,7 +404,7 @@ const PhysicsParameters& BulletWorld::parameters() const { return impl_->paramet
 
 bool BulletWorld::touches_ground(int body) const {
   for (const Contact& contact : impl_->contacts) {
-    if (contact.body == body) return true;
+    if (contact.body == body && contact.with_ground()) return true;
   }
   return false;
 }

@@ -47,6 +47,7 @@ void FullBodyPlant::measure() {
   double load = 0.0;
   Vec2 moment = Vec2::Zero();
   for (const BulletWorld::Contact& contact : world_.contacts()) {
+    if (!contact.with_ground()) continue;
     load += contact.force.z();
     moment += contact.force.z() * contact.point.head<2>();
     for (const Side side : {Side::left, Side::right}) {
@@ -101,6 +102,7 @@ std::string FullBodyPlant::fall_reason() const {
   const Vec3 up = body_.rotation(torso.body) * torso.pose.linear().col(2);
   if (std::acos(std::clamp(up.z(), -1.0, 1.0)) > fall_tilt) return "the torso leans too far";
   for (const BulletWorld::Contact& contact : world_.contacts()) {
+    if (!contact.with_ground()) continue;
     const bool is_foot = contact.body == robot_->foot_body(Side::left) ||
                          contact.body == robot_->foot_body(Side::right);
     if (!is_foot) {
