@@ -74,6 +74,11 @@ int run_command_line(int argc, char** argv) {
   run_app->add_option("--vx", run.walk.vx, "Forward [m/s]")->check(between(-0.5, 0.5));
   run_app->add_option("--vy", run.walk.vy, "To the left [m/s]")->check(between(-0.3, 0.3));
   run_app->add_option("--wz", run.walk.wz, "Turn to the left [rad/s]")->check(between(-0.5, 0.5));
+  run_app
+      ->add_option("--terrain", run.terrain,
+                   "flat, slope:DEG, slope:DEG:UPHILL_DEG, uneven:METRES, or a trial's terrain as "
+                   "JSON")
+      ->capture_default_str();
   run_app->add_flag("--json", run.json, "Print one JSON object");
 
   TrialOptions trial;

@@ -29,6 +29,7 @@ struct RunOptions {
   std::uint64_t seed = 1;
   double seconds = 60.0;
   engine::WalkCommand walk;
+  std::string terrain = "flat";  ///< as parse_terrain() reads it
   bool json = false;
 };
 

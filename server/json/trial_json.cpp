@@ -2,6 +2,7 @@
 
 #include "server/json/gait_json.h"
 #include "server/json/push_json.h"
+#include "server/json/terrain_json.h"
 #include "sim/state_hash.h"
 
 namespace stagger::server {
@@ -32,6 +33,10 @@ sim::TrialSpec read_trial(const nlohmann::json& body, sim::JsonErrors& errors) {
     spec.seed = read_seed(reader).value_or(spec.seed);
     reader.optional_object("walk", [&](sim::JsonReader& walk) { spec.walk = read_walk(walk); });
     spec.strategies = read_strategy_names(reader, "strategies").value_or(spec.strategies);
+    reader.optional_object("terrain",
+                           [&](sim::JsonReader& terrain) { spec.terrain = read_terrain(terrain); });
+    spec.self_collision = reader.boolean_or("self_collision", spec.self_collision);
+    refuse_terrain_of_lipm(reader, spec.plant, spec.terrain);
     spec.settle_s = reader.number_or("settle_s", spec.settle_s, Range::between(0.0, 60.0, "s"));
     spec.observe_s = reader.number_or("observe_s", spec.observe_s, Range::between(0.0, 60.0, "s"));
     reader.optional_object("push", [&](sim::JsonReader& push) { spec.push = read_push(push); });
@@ -45,6 +50,8 @@ Json trial_spec_json(const sim::TrialSpec& spec) {
             {"seed", spec.seed},
             {"walk", walk_json(spec.walk)},
             {"strategies", strategy_names_json(spec.strategies)},
+            {"terrain", terrain_json(spec.terrain)},
+            {"self_collision", spec.self_collision},
             {"settle_s", spec.settle_s},
             {"observe_s", spec.observe_s}};
   if (spec.push) json["push"] = push_spec_json(*spec.push);

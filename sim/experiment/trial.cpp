@@ -35,7 +35,14 @@ struct RecoveryCount {
 }  // namespace
 
 TrialResult run_trial(const TrialSpec& spec, std::shared_ptr<const Robot> robot) {
-  Simulation simulation({std::move(robot), spec.plant, spec.seed, spec.strategies});
+  SimulationConfig config;
+  config.robot = std::move(robot);
+  config.plant = spec.plant;
+  config.seed = spec.seed;
+  config.strategies = spec.strategies;
+  config.terrain = spec.terrain;
+  config.physics.self_collision = spec.self_collision;
+  Simulation simulation(std::move(config));
   simulation.walk(spec.walk);
   TrialResult result;
 

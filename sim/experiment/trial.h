@@ -9,6 +9,7 @@
 #include "engine/parameters.h"
 #include "sim/plant/plant.h"
 #include "sim/plant/push.h"
+#include "sim/plant/terrain.h"
 #include "sim/robot/robot.h"
 
 namespace stagger::sim {
@@ -19,8 +20,10 @@ struct TrialSpec {
   std::uint64_t seed = 1;
   engine::WalkCommand walk;
   engine::Strategies strategies;
-  double settle_s = 3.0;   ///< walking before the push may start [s]
-  double observe_s = 4.0;  ///< after the push has ended [s]
+  TerrainParameters terrain;
+  bool self_collision = true;  ///< of the full body
+  double settle_s = 3.0;       ///< walking before the push may start [s]
+  double observe_s = 4.0;      ///< after the push has ended [s]
   std::optional<PushSpec> push;
 };
 

@@ -1,4 +1,4 @@
-// The physics alone: a floating-base biped on level ground in Bullet; torques in, state out.
+// The physics alone: a floating-base biped on the ground in Bullet; torques in, state out.
 #pragma once
 
 #include <memory>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/plant/push.h"
+#include "sim/plant/terrain.h"
 #include "sim/robot/robot_model.h"
 #include "sim/state_hash.h"
 
@@ -33,10 +34,10 @@ class BulletWorld {
     bool with_ground() const { return other == ground; }
   };
 
-  /// The ground is z = 0. `start` must have one q and qd for each joint. Bodies that touch each
-  /// other in it, whose shapes belong together then, never collide.
-  BulletWorld(const RobotModel& model, const RobotState& start,
-              const PhysicsParameters& parameters);
+  /// `start` must have one q and qd for each joint. Bodies that touch each other in it, whose
+  /// shapes belong together then, never collide.
+  BulletWorld(const RobotModel& model, const RobotState& start, const PhysicsParameters& parameters,
+              const Terrain& terrain = Terrain({}));
   BulletWorld(const BulletWorld&) = delete;
   BulletWorld& operator=(const BulletWorld&) = delete;
   ~BulletWorld();

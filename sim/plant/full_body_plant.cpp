@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/robot/standing_state.h"
+
 namespace stagger::sim {
 namespace {
 
@@ -13,17 +15,19 @@ constexpr double fall_tilt = 1.0;
 /// Damping of the joints of a robot that has gone limp [N m s].
 constexpr double limp_damping = 2.0;
 
-PhysicsParameters physics(double dt) {
-  PhysicsParameters parameters;
-  parameters.dt = dt;
-  return parameters;
+/// The nominal pose, or the one nearest to it whose soles lie on the slope.
+RobotState start_state(const Robot& robot, const Terrain& terrain) {
+  if (terrain.normal() == Vec3::UnitZ()) return nominal_state(robot);
+  return standing_state(robot, terrain.normal());
 }
 
 }  // namespace
 
-FullBodyPlant::FullBodyPlant(std::shared_ptr<const Robot> robot, double dt)
+FullBodyPlant::FullBodyPlant(std::shared_ptr<const Robot> robot, const PhysicsParameters& physics,
+                             const Terrain& terrain)
     : robot_(std::move(robot)),
-      world_(robot_->model, nominal_state(*robot_), physics(dt)),
+      terrain_(terrain),
+      world_(robot_->model, start_state(*robot_, terrain), physics, terrain),
       body_(robot_->model),
       controller_(*robot_) {
   torque_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(robot_->model.joint_count()));
@@ -95,7 +99,8 @@ Vec3 FullBodyPlant::point_of(const AppliedForce& force) const {
 }
 
 std::string FullBodyPlant::fall_reason() const {
-  if (measurement_.com.z() < fall_height_share * robot_->description.walk.com_height_m) {
+  const double height = measurement_.com.z() - terrain_.height(measurement_.com.head<2>());
+  if (height < fall_height_share * robot_->description.walk.com_height_m) {
     return "the centre of mass is too low";
   }
   const LinkPlace& torso = robot_->model.links.at(robot_->description.torso);

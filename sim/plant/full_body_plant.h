@@ -14,7 +14,9 @@ namespace stagger::sim {
 /// State is read from the physics without error: there is no estimator yet.
 class FullBodyPlant final : public Plant {
  public:
-  FullBodyPlant(std::shared_ptr<const Robot> robot, double dt);
+  /// Stands on the terrain at rest.
+  FullBodyPlant(std::shared_ptr<const Robot> robot, const PhysicsParameters& physics,
+                const Terrain& terrain = Terrain({}));
 
   const engine::Measurement& measurement() const override { return measurement_; }
   void step(const engine::WalkingTargets& targets, std::span<const AppliedForce> forces) override;
@@ -30,6 +32,7 @@ class FullBodyPlant final : public Plant {
   void measure();
 
   std::shared_ptr<const Robot> robot_;
+  Terrain terrain_;
   BulletWorld world_;
   RigidBody body_;
   WholeBodyController controller_;

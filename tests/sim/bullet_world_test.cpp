@@ -262,7 +262,9 @@ TEST_F(BulletWorldTest, FrictionLimitsSliding) {
   for (const double friction : {0.3, 0.8}) {
     RobotState start = standing_;
     start.base_velocity = Vec3(2.0, 0.0, 0.0);
-    BulletWorld world(robot_->model, start, {.friction = friction});
+    TerrainParameters terrain;
+    terrain.friction = friction;
+    BulletWorld world(robot_->model, start, {}, Terrain(terrain));
     world.step(holding_torque(start), {});
     const Vec3 force = ground_force(world);
     EXPECT_GT(force.z(), 1.0);

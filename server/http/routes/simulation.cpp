@@ -2,6 +2,7 @@
 #include "server/http/routes/body.h"
 #include "server/http/routes/routes.h"
 #include "server/json/gait_json.h"
+#include "server/json/terrain_json.h"
 #include "sim/state_hash.h"
 
 namespace stagger::server {
@@ -14,6 +15,7 @@ Json state_json(const SessionState& state, const StreamCounters& stream) {
           {"robot", state.robot},
           {"plant", name_of(state.plant)},
           {"seed", state.seed},
+          {"terrain", terrain_json(state.terrain)},
           {"tick", state.tick},
           {"time_s", state.time_s},
           {"running", state.running},
@@ -46,6 +48,10 @@ HttpResponse reset(const HttpRequest& request, Services& services) {
     robot = reader.string_or("robot", present.robot);
     config.plant = read_plant(reader).value_or(present.plant);
     config.seed = read_seed(reader).value_or(present.seed);
+    config.terrain = present.terrain;
+    reader.optional_object(
+        "terrain", [&](sim::JsonReader& terrain) { config.terrain = read_terrain(terrain); });
+    refuse_terrain_of_lipm(reader, config.plant, config.terrain);
   });
   config.robot = services.robots.find(robot);
   if (config.robot == nullptr) {
