@@ -35,10 +35,11 @@ struct WalkingTargets {
   Vec2 dcm_estimate = Vec2::Zero();            ///< Kalman filter [m]
   Vec2 zmp_command = Vec2::Zero();             ///< LQG output inside the support polygon [m]
   Vec2 zmp_shift = Vec2::Zero();               ///< hip strategy: torque / (m g), world axes [m]
-  Vec2 hip_angle = Vec2::Zero();  ///< lean that the engine thinks of, heading axes [rad]
-  double com_height = 0.0;        ///< above the ground under the stance foot [m]
-  double heading = 0.0;           ///< yaw for pelvis and torso [rad]
-  double heading_velocity = 0.0;  ///< [rad/s]
+  Vec2 hip_angle = Vec2::Zero();     ///< lean that the engine thinks of, heading axes [rad]
+  double com_height = 0.0;           ///< above the ground under the stance foot [m]
+  Vec2 ground_slope = Vec2::Zero();  ///< of the ground where it is not known yet, world axes
+  double heading = 0.0;              ///< yaw for pelvis and torso [rad]
+  double heading_velocity = 0.0;     ///< [rad/s]
 
   PerFoot<FootTarget> feet;
   Footstep planned_step;   ///< next foothold before adjustment

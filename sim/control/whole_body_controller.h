@@ -66,7 +66,8 @@ class WholeBodyController {
                 const Eigen::Ref<const Eigen::VectorXd>& value);
   void add_com_task(const RigidBody& body, const engine::WalkingTargets& targets);
   void add_torso_task(const RigidBody& body, const engine::WalkingTargets& targets);
-  void add_foot_task(const RigidBody& body, const Foot& foot, const engine::FootTarget& target);
+  void add_foot_task(const RigidBody& body, const Foot& foot, const engine::FootTarget& target,
+                     const Eigen::Quaterniond& ground);
   void find_contacts(const RigidBody& body, const engine::WalkingTargets& targets);
   void add_dynamics(const RigidBody& body);
   void add_limits(const RigidBody& body, const RobotState& state);

@@ -41,7 +41,7 @@ TEST_P(FullBodyTerrainSlope, IsWalkedAtAboutTheSpeedOfTheCommand) {
   terrain.uphill_angle = GetParam() * M_PI / 180.0;
   const Walked walked = walk(terrain, 20.0);
   EXPECT_EQ(walked.fall, "");
-  EXPECT_NEAR(walked.way.norm(), 0.3 * (20.0 - 1.0), 0.2 * 0.3 * (20.0 - 1.0));
+  EXPECT_NEAR(walked.way.norm(), 0.3 * (20.0 - 1.0), 0.1 * 0.3 * (20.0 - 1.0));
 }
 
 TEST(FullBodyTerrain, TilesOfTwoCentimetresAreWalkedForAMinute) {

@@ -161,6 +161,7 @@ test('values out of range are refused', async () => {
     ['/api/v1/simulation/reset', { plant: 'mujoco' }, '/plant'],
     ['/api/v1/simulation/reset', { robot: 'nobody' }, '/robot'],
     ['/api/v1/simulation/reset', { seed: -1 }, '/seed'],
+    ['/api/v1/simulation/reset', { terrain: { kind: 'flat', friction: 2 } }, '/terrain/friction'],
   ]) {
     const answer = await server.post(target, body);
     refused(answer, 422);
