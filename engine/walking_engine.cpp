@@ -126,9 +126,10 @@ WalkingEngine::StepListError WalkingEngine::follow(std::span<const Footstep> ste
 Vec2 WalkingEngine::middle() const { return 0.5 * (stance_.position + landed_.position); }
 
 FootPose WalkingEngine::landing_pose(const Footstep& step) const {
-  // The ground is taken to be as high as under the stance foot.
+  // The ground is taken to go on from under the stance foot as it did so far.
   const double ground = standing_[index(stance_.side)].position.z();
-  return {Vec3(step.position.x(), step.position.y(), ground), step.yaw};
+  const double rise = ground_.rise(step.position - stance_.position);
+  return {Vec3(step.position.x(), step.position.y(), ground + rise), step.yaw};
 }
 
 bool WalkingEngine::take(const Measurement& measurement) {
@@ -224,6 +225,9 @@ void WalkingEngine::react(Transition transition) {
     case Transition::lift_off:
       stance_ = measured(machine_.support_side());
       standing_ = measured_.feet;
+      // Both have stood for a while: a foot that has just landed may still stand on its edge.
+      ground_.learn(standing_[index(other(stance_.side))].position,
+                    standing_[index(stance_.side)].position);
       nominal_t_ss_ = machine_.t_ss();
       plan_steps(stance_, 0);
       swing_goal_ = steps_[0];
@@ -508,7 +512,11 @@ void WalkingEngine::publish(const LqgReference& reference) {
   t.dcm_reference = reference.dcm;
   t.com_estimate = lqg_.com();
   t.dcm_estimate = lqg_.dcm();
-  t.com_height = parameters_.com_height;
+  // Over ground that rises the centre of mass goes along with it, not up with every step.
+  constexpr double most_rise = 0.1;  // beyond what a step brings; a fall must not turn it over [m]
+  t.com_height = parameters_.com_height +
+                 std::clamp(ground_.rise(lqg_.com() - stance_.position), -most_rise, most_rise);
+  t.ground_slope = ground_.gradient();
   for (const Side side : {Side::left, Side::right}) {
     FootTarget& foot = t.feet[index(side)];
     foot = FootTarget();

@@ -5,6 +5,7 @@
 
 #include "engine/capture_region.h"
 #include "engine/footstep_planner.h"
+#include "engine/ground_slope.h"
 #include "engine/hip_strategy.h"
 #include "engine/lqg.h"
 #include "engine/measurement.h"
@@ -136,7 +137,8 @@ class WalkingEngine {
   Footstep stance_;               ///< f_i; in double support the foot that the ZMP leaves
   Footstep landed_;               ///< in double support: f_{i+1}, where the foot really landed
   PerFoot<FootPose> standing_{};  ///< where each foot stands, or stood before it lifted off
-  Footstep planned_;              ///< next foothold before adjustment
+  GroundSlope ground_;
+  Footstep planned_;  ///< next foothold before adjustment
   std::array<Footstep, preview_steps> steps_;
   std::size_t step_count_ = 0;
   SwingTrajectory swing_;

@@ -41,6 +41,7 @@ struct WalkingTargets {
   Vec2 hip_rate = Vec2::Zero();          ///< [rad/s]
   Vec2 hip_acceleration = Vec2::Zero();  ///< [rad/s^2]
   double com_height = 0.0;               ///< above the ground under the stance foot [m]
+  Vec2 ground_slope = Vec2::Zero();      ///< of the ground where it is not known yet, world axes
   double heading = 0.0;                  ///< yaw for pelvis and torso [rad]
   double heading_velocity = 0.0;         ///< [rad/s]
 

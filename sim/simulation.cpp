@@ -15,10 +15,15 @@ namespace {
 std::unique_ptr<Plant> make_plant(const SimulationConfig& config) {
   if (!config.robot) throw std::invalid_argument("a simulation needs a robot");
   if (config.plant == PlantKind::lipm) {
+    if (config.terrain.kind != TerrainKind::flat) {
+      throw std::invalid_argument("the plant lipm walks on flat ground only");
+    }
     return std::make_unique<LipmPlant>(lipm_parameters(*config.robot), Simulation::tick_s);
   }
-  return std::make_unique<FullBodyPlant>(config.robot, Simulation::tick_s, config.senses,
-                                         config.seed);
+  PhysicsParameters physics = config.physics;
+  physics.dt = Simulation::tick_s;
+  return std::make_unique<FullBodyPlant>(config.robot, physics, config.senses, config.seed,
+                                         Terrain(config.terrain, config.seed));
 }
 
 std::vector<std::string> joint_names(const SimulationConfig& config) {

@@ -12,8 +12,10 @@
 #include "sim/channels.h"
 #include "sim/control/senses.h"
 #include "sim/frame.h"
+#include "sim/plant/bullet_world.h"
 #include "sim/plant/plant.h"
 #include "sim/plant/push.h"
+#include "sim/plant/terrain.h"
 #include "sim/robot/robot.h"
 #include "sim/state_hash.h"
 
@@ -24,7 +26,9 @@ struct SimulationConfig {
   PlantKind plant = PlantKind::bullet;
   std::uint64_t seed = 1;
   engine::Strategies strategies;
-  SenseParameters senses;  ///< of the full body; the pendulum has none of them
+  SenseParameters senses;     ///< of the full body; the pendulum has none of them
+  TerrainParameters terrain;  ///< the LIPM knows flat ground alone, whatever it is made of
+  PhysicsParameters physics;  ///< of the full body; its dt is the tick
 };
 
 enum class EventKind : std::uint8_t { step, push_started, push_done, push_cancelled, fall };
@@ -43,6 +47,8 @@ class Simulation {
   /// Physics and control period [s].
   static constexpr double tick_s = 0.001;
 
+  /// Throws std::invalid_argument when the configuration is not valid: see validate() of the
+  /// terrain.
   explicit Simulation(SimulationConfig config);
 
   /// Runs one tick and returns its frame: the state at the tick's beginning, the targets made from

@@ -141,6 +141,11 @@ int run_command_line(int argc, char** argv) {
       ->check(between(0.001, 86400.0))
       ->capture_default_str();
   add_walk(*run_app, run.walk);
+  run_app
+      ->add_option("--terrain", run.terrain,
+                   "flat, slope:DEG, slope:DEG:UPHILL_DEG, uneven:METRES, or a trial's terrain as "
+                   "JSON")
+      ->capture_default_str();
   run_app->add_flag("--json", run.json, "Print one JSON object");
 
   TrialOptions trial;

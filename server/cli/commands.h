@@ -36,6 +36,7 @@ struct RunOptions {
   WorldOptions world;
   double seconds = 60.0;
   engine::WalkCommand walk;
+  std::string terrain = "flat";  ///< as parse_terrain() reads it
   bool json = false;
 };
 

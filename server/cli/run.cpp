@@ -1,18 +1,49 @@
 #include <chrono>
 #include <cmath>
 #include <iostream>
+#include <optional>
 
 #include "server/cli/cli.h"
 #include "server/cli/commands.h"
 #include "server/json/gait_json.h"
+#include "server/json/terrain_json.h"
+#include "sim/json_file.h"
 #include "sim/simulation.h"
 
 namespace stagger::server {
+namespace {
+
+/// Says what is wrong on standard error; then there is none.
+std::optional<sim::TerrainParameters> terrain_of(const std::string& text) {
+  sim::JsonErrors errors;
+  sim::TerrainParameters terrain;
+  try {
+    terrain = parse_terrain(text, errors);
+  } catch (const sim::JsonSyntaxError& error) {
+    std::cerr << "stagger: --terrain is \"" << text << "\": " << error.what() << '\n';
+    return std::nullopt;
+  }
+  for (const sim::JsonError& error : errors.list()) {
+    std::cerr << "stagger: --terrain " << error.pointer << ' ' << error.text << '\n';
+  }
+  if (!errors.empty()) return std::nullopt;
+  return terrain;
+}
+
+}  // namespace
 
 int run_command(const RunOptions& options, const Folders& folders) {
   RobotLibrary library(folders.robots);
-  const sim::SimulationConfig config = world_of(options.world, library);
+  sim::SimulationConfig config = world_of(options.world, library);
   if (config.robot == nullptr) return exit_usage;
+  const auto terrain = terrain_of(options.terrain);
+  if (!terrain) return exit_usage;
+  config.terrain = *terrain;
+  if (config.plant == sim::PlantKind::lipm && terrain->kind != sim::TerrainKind::flat) {
+    std::cerr << "stagger: --terrain is \"" << options.terrain
+              << "\"; allowed with --plant lipm: flat\n";
+    return exit_usage;
+  }
   sim::Simulation simulation(config);
   simulation.walk(options.walk);
 
@@ -34,6 +65,7 @@ int run_command(const RunOptions& options, const Folders& folders) {
     write_senses(json, config.plant, config.senses);
     json.update({{"seconds", seconds},
                  {"walk", walk_json(options.walk)},
+                 {"terrain", terrain_json(config.terrain)},
                  {"ticks", ticks},
                  {"fell", frame.fallen},
                  {"fall_reason", frame.fallen ? Json(simulation.fall_reason()) : Json()},

@@ -6,6 +6,7 @@
 
 #include "server/json/gait_json.h"
 #include "server/json/json.h"
+#include "server/json/terrain_json.h"
 #include "sim/json_file.h"
 #include "sim/simulation.h"
 
@@ -57,6 +58,7 @@ std::string hello_text(const SessionInfo& session) {
                   {"robot", session.robot},
                   {"plant", name_of(session.plant)},
                   {"seed", session.seed},
+                  {"terrain", terrain_json(session.terrain)},
                   {"tick_s", sim::Simulation::tick_s},
                   {"channels", std::move(channels)},
                   {"states", std::move(states)},

@@ -3,6 +3,7 @@
 #include "server/json/gait_json.h"
 #include "server/json/push_json.h"
 #include "server/json/senses_json.h"
+#include "server/json/terrain_json.h"
 #include "sim/state_hash.h"
 
 namespace stagger::server {
@@ -38,6 +39,10 @@ sim::TrialSpec read_trial(const nlohmann::json& body, sim::JsonErrors& errors) {
     }
     spec.strategies = read_strategy_names(reader, "strategies").value_or(spec.strategies);
     spec.senses = read_senses(reader, spec.senses);
+    reader.optional_object("terrain",
+                           [&](sim::JsonReader& terrain) { spec.terrain = read_terrain(terrain); });
+    spec.self_collision = reader.boolean_or("self_collision", spec.self_collision);
+    refuse_terrain_of_lipm(reader, spec.plant, spec.terrain);
     spec.settle_s = reader.number_or("settle_s", spec.settle_s, Range::between(0.0, 60.0, "s"));
     spec.observe_s = reader.number_or("observe_s", spec.observe_s, Range::between(0.0, 60.0, "s"));
     reader.optional_object("push", [&](sim::JsonReader& push) { spec.push = read_push(push); });
@@ -51,6 +56,8 @@ Json trial_spec_json(const sim::TrialSpec& spec) {
             {"stand", spec.stand}, {"strategies", strategy_names_json(spec.strategies)}};
   // The pendulum has neither; and what is written here is read again.
   if (spec.plant == sim::PlantKind::bullet) write_senses(json, spec.plant, spec.senses);
+  json["terrain"] = terrain_json(spec.terrain);
+  json["self_collision"] = spec.self_collision;
   json["settle_s"] = spec.settle_s;
   json["observe_s"] = spec.observe_s;
   if (spec.push) json["push"] = push_spec_json(*spec.push);

@@ -163,6 +163,7 @@ void LiveSession::start_session() {
   session->robot = config.robot->name;
   session->plant = config.plant;
   session->seed = config.seed;
+  session->terrain = config.terrain;
   session->channels = world_->channels();
   session_ = std::move(session);
   strategies_ = config.strategies;
@@ -232,6 +233,7 @@ SessionState LiveSession::describe() const {
   state.robot = session_->robot;
   state.plant = session_->plant;
   state.seed = session_->seed;
+  state.terrain = session_->terrain;
   state.tick = now().tick;
   state.time_s = now().time_s;
   state.running = running_;

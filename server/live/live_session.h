@@ -37,6 +37,7 @@ struct SessionState {
   std::string robot;
   sim::PlantKind plant = sim::PlantKind::bullet;
   std::uint64_t seed = 0;
+  sim::TerrainParameters terrain;
   std::uint64_t tick = 0;  ///< that runs next; the last frame is of the tick before
   double time_s = 0.0;
   bool running = false;

@@ -11,6 +11,7 @@
 #include "sim/channels.h"
 #include "sim/frame.h"
 #include "sim/plant/plant.h"
+#include "sim/plant/terrain.h"
 
 namespace stagger::server {
 
@@ -20,6 +21,7 @@ struct SessionInfo {
   std::string robot;
   sim::PlantKind plant = sim::PlantKind::bullet;
   std::uint64_t seed = 1;
+  sim::TerrainParameters terrain;
   std::vector<sim::Channel> channels;
 };
 

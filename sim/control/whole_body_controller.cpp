@@ -159,7 +159,8 @@ void WholeBodyController::add_torso_task(const RigidBody& body,
 }
 
 void WholeBodyController::add_foot_task(const RigidBody& body, const Foot& foot,
-                                        const engine::FootTarget& target) {
+                                        const engine::FootTarget& target,
+                                        const Eigen::Quaterniond& ground) {
   const Vec3 point = body.pose(foot.body) * foot.sole.translation();
   const Vec6 velocity = body.velocity(foot.body, point);
   body.jacobian(foot.body, point, jacobian_);
@@ -179,7 +180,7 @@ void WholeBodyController::add_foot_task(const RigidBody& body, const Foot& foot,
     }
     wanted.tail<3>() =
         Vec3(0.0, 0.0, target.yaw_acceleration) +
-        gains_.swing_stiffness * rotation_error(rotation, yaw_rotation(target.yaw)) +
+        gains_.swing_stiffness * rotation_error(rotation, ground * yaw_rotation(target.yaw)) +
         gains_.swing_damping * (Vec3(0.0, 0.0, target.yaw_velocity) - velocity.tail<3>());
     weight = gains_.swing_weight;
   }
@@ -255,10 +256,14 @@ const Eigen::VectorXd& WholeBodyController::compute(const RigidBody& body, const
   problem_.inequality.setZero(limits, n);
   problem_.inequality_bound.resize(limits);
 
+  const Vec3 normal(-targets.ground_slope.x(), -targets.ground_slope.y(), 1.0);
+  const auto ground = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), normal);
   add_com_task(body, targets);
   add_momentum_task(body, targets);
   add_torso_task(body, targets);
-  for (std::size_t i = 0; i < feet_.size(); ++i) add_foot_task(body, feet_[i], targets.feet[i]);
+  for (std::size_t i = 0; i < feet_.size(); ++i) {
+    add_foot_task(body, feet_[i], targets.feet[i], ground);
+  }
   add_joint_limit_tasks(state);
   add_dynamics(body);
   add_limits(body, state);

@@ -53,7 +53,8 @@ class WholeBodyController {
   void add_joint_limit_tasks(const RobotState& state);
   void add_momentum_task(const RigidBody& body, const engine::WalkingTargets& targets);
   void add_torso_task(const RigidBody& body, const engine::WalkingTargets& targets);
-  void add_foot_task(const RigidBody& body, const Foot& foot, const engine::FootTarget& target);
+  void add_foot_task(const RigidBody& body, const Foot& foot, const engine::FootTarget& target,
+                     const Eigen::Quaterniond& ground);
   void find_contacts(const RigidBody& body, const engine::WalkingTargets& targets);
   void add_dynamics(const RigidBody& body);
   void add_limits(const RigidBody& body, const RobotState& state);

@@ -19,7 +19,15 @@ std::uint64_t ticks_of(double seconds) {
 }  // namespace
 
 TrialResult run_trial(const TrialSpec& spec, std::shared_ptr<const Robot> robot) {
-  Simulation simulation({std::move(robot), spec.plant, spec.seed, spec.strategies, spec.senses});
+  SimulationConfig config;
+  config.robot = std::move(robot);
+  config.plant = spec.plant;
+  config.seed = spec.seed;
+  config.strategies = spec.strategies;
+  config.senses = spec.senses;
+  config.terrain = spec.terrain;
+  config.physics.self_collision = spec.self_collision;
+  Simulation simulation(std::move(config));
   if (!spec.stand) simulation.walk(spec.walk);
   TrialResult result;
 

@@ -10,6 +10,7 @@
 #include "sim/control/senses.h"
 #include "sim/plant/plant.h"
 #include "sim/plant/push.h"
+#include "sim/plant/terrain.h"
 #include "sim/robot/robot.h"
 
 namespace stagger::sim {
@@ -22,8 +23,10 @@ struct TrialSpec {
   bool stand = false;  ///< no walk command: it stands, is pushed, and is to stand again
   engine::Strategies strategies;
   SenseParameters senses;  ///< of the full body
-  double settle_s = 3.0;   ///< walking or standing before the push may start [s]
-  double observe_s = 4.0;  ///< after the push has ended [s]
+  TerrainParameters terrain;
+  bool self_collision = true;  ///< of the full body
+  double settle_s = 3.0;       ///< walking or standing before the push may start [s]
+  double observe_s = 4.0;      ///< after the push has ended [s]
   std::optional<PushSpec> push;
 };
 

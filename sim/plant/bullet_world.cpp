@@ -19,16 +19,13 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/plant/body_pairs.h"
+#include "sim/plant/bullet_ground.h"
 #include "sim/plant/motor_limits.h"
 
 namespace stagger::sim {
 namespace {
 
-// The ground is one box: Bullet's box-box test gives all corners of a sole at once, where its
-// box-plane test collects them over several ticks. In double precision a box of this size still has
-// its face exact to 1e-13 m.
-constexpr double ground_half_extent = 1000.0;  // [m]
-constexpr double ground_half_depth = 1.0;      // [m]
 // Rounding of shapes that Bullet's general convex algorithm sees; boxes on the ground are exact.
 constexpr double collision_margin = 0.001;  // [m]
 // Bodies without geometry still need a collider: Bullet 3.24 puts a body's joint limits into no
@@ -38,6 +35,10 @@ constexpr double stand_in_radius = 0.01;  // [m]
 // Bullet cuts velocities here, and with them momentum: its 100 is what a light foot reaches when it
 // is hit.
 constexpr double max_coordinate_velocity = 1000.0;  // [m/s] and [rad/s]
+
+// Of every body. Bullet multiplies coefficients: two bodies of the robot have 0.64 between them,
+// and the ground carries what is missing to its own.
+constexpr double robot_friction = 0.8;
 
 constexpr int ground_group = 1;
 constexpr int robot_group = 2;
@@ -89,6 +90,64 @@ std::unique_ptr<btCollisionShape> make_shape(const Shape& shape) {
   return result;
 }
 
+/// Bullet asks it which pairs of objects may collide at all.
+struct PairFilter final : btOverlapFilterCallback {
+  explicit PairFilter(const RobotModel& model) : pairs(model) {}
+
+  bool needBroadphaseCollision(btBroadphaseProxy* first, btBroadphaseProxy* second) const override {
+    if ((first->m_collisionFilterGroup & second->m_collisionFilterMask) == 0 ||
+        (second->m_collisionFilterGroup & first->m_collisionFilterMask) == 0) {
+      return false;
+    }
+    const btMultiBodyLinkCollider* a = link(*first);
+    const btMultiBodyLinkCollider* b = link(*second);
+    return a == nullptr || b == nullptr || pairs.may_touch(a->m_link + 1, b->m_link + 1);
+  }
+  static const btMultiBodyLinkCollider* link(const btBroadphaseProxy& proxy) {
+    return btMultiBodyLinkCollider::upcast(
+        static_cast<const btCollisionObject*>(proxy.m_clientObject));
+  }
+
+  BodyPairs pairs;
+};
+
+/// Bullet's world, with the coefficient of friction chosen point by point.
+struct World final : btMultiBodyDynamicsWorld {
+  using btMultiBodyDynamicsWorld::btMultiBodyDynamicsWorld;
+
+  void performDiscreteCollisionDetection() override {
+    btMultiBodyDynamicsWorld::performDiscreteCollisionDetection();
+    if (terrain != nullptr && !terrain->parameters().patches.empty()) set_frictions();
+  }
+  void set_frictions() {
+    for (int m = 0; m < m_dispatcher1->getNumManifolds(); ++m) {
+      btPersistentManifold& manifold = *m_dispatcher1->getManifoldByIndexInternal(m);
+      if (btMultiBodyLinkCollider::upcast(manifold.getBody0()) != nullptr &&
+          btMultiBodyLinkCollider::upcast(manifold.getBody1()) != nullptr) {
+        continue;
+      }
+      for (int i = 0; i < manifold.getNumContacts(); ++i) {
+        btManifoldPoint& point = manifold.getContactPoint(i);
+        const btVector3& place = point.getPositionWorldOnA();
+        point.m_combinedFriction = terrain->friction({place.x(), place.y()}, time);
+      }
+    }
+  }
+
+  const Terrain* terrain = nullptr;
+  double time = 0.0;  // now [s]
+};
+
+/// Sees whether two objects touch.
+struct TouchProbe final : btCollisionWorld::ContactResultCallback {
+  btScalar addSingleResult(btManifoldPoint& point, const btCollisionObjectWrapper*, int, int,
+                           const btCollisionObjectWrapper*, int, int) override {
+    touches |= point.getDistance() <= 0.0;
+    return 0.0;
+  }
+  bool touches = false;
+};
+
 void mix(StateHash& hash, const Vec3& v) {
   for (const double x : {v.x(), v.y(), v.z()}) hash.mix(x);
 }
@@ -97,13 +156,15 @@ void mix(StateHash& hash, const Vec3& v) {
 
 // Members are destroyed last to first: the world goes before what it points to.
 struct BulletWorld::Impl {
-  Impl(const RobotModel& model_in, const PhysicsParameters& parameters_in)
-      : model(model_in), parameters(parameters_in) {}
+  Impl(const RobotModel& model_in, const PhysicsParameters& parameters_in,
+       const Terrain& terrain_in)
+      : model(model_in), parameters(parameters_in), terrain(terrain_in), filter(model_in) {}
 
   void make_world();
-  void make_ground();
   void make_robot();
   void make_collider(int body, const Eigen::Isometry3d& pose);
+  void separate_touching_pairs();
+  void add_colliders();
   void make_joint_limits();
   void place(const RobotState& start);
   void apply_torque(const Eigen::VectorXd& torque);
@@ -124,44 +185,39 @@ struct BulletWorld::Impl {
 
   const RobotModel model;
   const PhysicsParameters parameters;
+  const Terrain terrain;
   std::vector<PrincipalFrame> frames;
   RobotState state;
   Eigen::VectorXd applied_torque;
   std::vector<Contact> contacts;
 
   std::vector<std::unique_ptr<btCollisionShape>> shapes;
+  PairFilter filter;
   btDefaultCollisionConfiguration configuration;
   std::unique_ptr<btCollisionDispatcher> dispatcher;
   btDbvtBroadphase broadphase;
   btMultiBodyConstraintSolver solver;
   std::unique_ptr<btMultiBody> robot;
-  std::unique_ptr<btCollisionObject> ground;
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders;
   std::vector<std::unique_ptr<btMultiBodyConstraint>> limits;
-  std::unique_ptr<btMultiBodyDynamicsWorld> world;
+  std::unique_ptr<World> world;
+  std::unique_ptr<BulletGround> ground;
+  std::uint64_t steps = 0;  // done
 };
 
 void BulletWorld::Impl::make_world() {
   dispatcher = std::make_unique<btCollisionDispatcher>(&configuration);
-  world = std::make_unique<btMultiBodyDynamicsWorld>(dispatcher.get(), &broadphase, &solver,
-                                                     &configuration);
+  world = std::make_unique<World>(dispatcher.get(), &broadphase, &solver, &configuration);
+  world->terrain = &terrain;
+  world->getPairCache()->setOverlapFilterCallback(&filter);
   world->setGravity(btVector3(0.0, 0.0, -parameters.gravity));
   btContactSolverInfo& info = world->getSolverInfo();
   info.m_numIterations = parameters.iterations;
   // Bullet's default here, and not to be saved on: with one direction a foot at rest is held along
   // one axis only and creeps along the other.
   info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
-}
-
-void BulletWorld::Impl::make_ground() {
-  btCollisionShape* shape = keep(std::make_unique<btBoxShape>(
-      btVector3(ground_half_extent, ground_half_extent, ground_half_depth)));
-  ground = std::make_unique<btCollisionObject>();
-  ground->setCollisionShape(shape);
-  ground->setWorldTransform(
-      btTransform(btQuaternion::getIdentity(), btVector3(0.0, 0.0, -ground_half_depth)));
-  ground->setFriction(1.0);  // Bullet multiplies: the robot's colliders carry the coefficient
-  world->addCollisionObject(ground.get(), ground_group, robot_group);
+  ground =
+      std::make_unique<BulletGround>(terrain, *world, ground_group, robot_group, robot_friction);
 }
 
 void BulletWorld::Impl::make_robot() {
@@ -188,7 +244,7 @@ void BulletWorld::Impl::make_robot() {
   robot->setAngularDamping(0.0);
   robot->setCanSleep(false);
   robot->setMaxCoordinateVelocity(max_coordinate_velocity);
-  robot->setHasSelfCollision(false);
+  robot->setHasSelfCollision(parameters.self_collision);
 }
 
 void BulletWorld::Impl::make_collider(int body, const Eigen::Isometry3d& pose) {
@@ -207,16 +263,31 @@ void BulletWorld::Impl::make_collider(int body, const Eigen::Isometry3d& pose) {
     }
     collider->setCollisionShape(keep(std::move(compound)));
   }
-  collider->setFriction(parameters.friction);
+  collider->setFriction(robot_friction);
   collider->setWorldTransform(to_bullet(pose * frames[body].pose));
   if (body == 0) {
     robot->setBaseCollider(collider.get());
   } else {
     robot->getLink(body - 1).m_collider = collider.get();
   }
-  world->addCollisionObject(collider.get(), pieces.empty() ? stand_in_group : robot_group,
-                            pieces.empty() ? 0 : ground_group);
   colliders.push_back(std::move(collider));
+}
+
+void BulletWorld::Impl::separate_touching_pairs() {
+  for (const auto& [first, second] : filter.pairs.list()) {
+    TouchProbe probe;
+    world->contactPairTest(colliders[first].get(), colliders[second].get(), probe);
+    if (probe.touches) filter.pairs.forbid(first, second);
+  }
+}
+
+void BulletWorld::Impl::add_colliders() {
+  const int partners = parameters.self_collision ? ground_group | robot_group : ground_group;
+  for (std::size_t i = 0; i < colliders.size(); ++i) {
+    const bool stand_in = model.bodies[i].shapes.empty();
+    world->addCollisionObject(colliders[i].get(), stand_in ? stand_in_group : robot_group,
+                              stand_in ? 0 : partners);
+  }
 }
 
 void BulletWorld::Impl::make_joint_limits() {
@@ -293,6 +364,7 @@ void BulletWorld::Impl::read_contacts() {
     const btMultiBodyLinkCollider* second = btMultiBodyLinkCollider::upcast(manifold.getBody1());
     const btMultiBodyLinkCollider* collider = first ? first : second;
     if (!collider) continue;
+    const int other = first && second ? second->m_link + 1 : Contact::ground;
     // Impulses act on body 0, the normal points to it; body 1 gets the opposite.
     const double sign = (first ? 1.0 : -1.0) / parameters.dt;
     for (int i = 0; i < manifold.getNumContacts(); ++i) {
@@ -302,25 +374,26 @@ void BulletWorld::Impl::read_contacts() {
                                 point.m_lateralFrictionDir1 * point.m_appliedImpulseLateral1 +
                                 point.m_lateralFrictionDir2 * point.m_appliedImpulseLateral2;
       const btVector3& where = first ? point.getPositionWorldOnA() : point.getPositionWorldOnB();
-      contacts.push_back({collider->m_link + 1, to_eigen(where), sign * to_eigen(impulse)});
+      contacts.push_back({collider->m_link + 1, to_eigen(where), sign * to_eigen(impulse), other});
     }
   }
 }
 
 BulletWorld::BulletWorld(const RobotModel& model, const RobotState& start,
-                         const PhysicsParameters& parameters)
-    : impl_(std::make_unique<Impl>(model, parameters)) {
+                         const PhysicsParameters& parameters, const Terrain& terrain)
+    : impl_(std::make_unique<Impl>(model, parameters, terrain)) {
   const auto joints = static_cast<Eigen::Index>(model.joint_count());
   assert(start.q.size() == joints && start.qd.size() == joints);
   impl_->state = start;
   impl_->applied_torque = Eigen::VectorXd::Zero(joints);
   impl_->contacts.reserve(64);
   impl_->make_world();
-  impl_->make_ground();
   impl_->make_robot();
   impl_->place(start);
   const auto poses = body_poses(model, start);
   for (int i = 0; i <= joints; ++i) impl_->make_collider(i, poses[i]);
+  if (parameters.self_collision) impl_->separate_touching_pairs();
+  impl_->add_colliders();
   impl_->world->addMultiBody(impl_->robot.get());
   impl_->make_joint_limits();
 }
@@ -330,7 +403,6 @@ BulletWorld::~BulletWorld() {
   for (const auto& limit : impl.limits) impl.world->removeMultiBodyConstraint(limit.get());
   impl.world->removeMultiBody(impl.robot.get());
   for (const auto& collider : impl.colliders) impl.world->removeCollisionObject(collider.get());
-  impl.world->removeCollisionObject(impl.ground.get());
 }
 
 void BulletWorld::step(const Eigen::VectorXd& torque, std::span<const AppliedForce> forces) {
@@ -338,7 +410,12 @@ void BulletWorld::step(const Eigen::VectorXd& torque, std::span<const AppliedFor
   // Bullet forgets forces and torques after every step.
   impl_->apply_torque(torque);
   for (const AppliedForce& force : forces) impl_->apply_force(force);
-  impl_->world->stepSimulation(impl_->parameters.dt, 0);
+  const double dt = impl_->parameters.dt;
+  impl_->world->time = static_cast<double>(impl_->steps) * dt;
+  ++impl_->steps;
+  impl_->ground->prepare(static_cast<double>(impl_->steps) * dt,
+                         impl_->state.base_position.head<2>());
+  impl_->world->stepSimulation(dt, 0);
   impl_->read_state();
   impl_->read_contacts();
 }
@@ -350,7 +427,7 @@ const PhysicsParameters& BulletWorld::parameters() const { return impl_->paramet
 
 bool BulletWorld::touches_ground(int body) const {
   for (const Contact& contact : impl_->contacts) {
-    if (contact.body == body) return true;
+    if (contact.body == body && contact.with_ground()) return true;
   }
   return false;
 }

@@ -5,6 +5,7 @@
 
 #include "sim/robot/dynamic_scale.h"
 #include "sim/robot/posture.h"
+#include "sim/robot/standing_state.h"
 
 namespace stagger::sim {
 namespace {
@@ -16,10 +17,10 @@ constexpr double fall_tilt = 1.0;
 /// Damping of the joints of a robot that has gone limp, at 30 kg and 1 m [N m s].
 constexpr double limp_damping = 2.0;
 
-PhysicsParameters physics(double dt) {
-  PhysicsParameters parameters;
-  parameters.dt = dt;
-  return parameters;
+/// The posture that it walks in, or the one nearest to it whose soles lie on the slope.
+RobotState start_state(const Robot& robot, const Terrain& terrain) {
+  if (terrain.normal() == Vec3::UnitZ()) return walking_state(robot);
+  return standing_state(robot, terrain.normal());
 }
 
 const SenseParameters& valid(const SenseParameters& senses) {
@@ -29,20 +30,23 @@ const SenseParameters& valid(const SenseParameters& senses) {
 
 }  // namespace
 
-FullBodyPlant::FullBodyPlant(std::shared_ptr<const Robot> robot, double dt,
-                             const SenseParameters& senses, std::uint64_t seed)
+FullBodyPlant::FullBodyPlant(std::shared_ptr<const Robot> robot, const PhysicsParameters& physics,
+                             const SenseParameters& senses, std::uint64_t seed,
+                             const Terrain& terrain)
     : robot_(std::move(robot)),
       senses_(valid(senses)),
-      world_(robot_->model, walking_state(*robot_), physics(dt)),
-      sensors_(*robot_, senses.sensors, seed, dt, world_.parameters().gravity, world_.state()),
-      estimator_(*robot_, senses.sensors, dt, world_.parameters().gravity, world_.state()),
+      terrain_(terrain),
+      world_(robot_->model, start_state(*robot_, terrain), physics, terrain),
+      sensors_(*robot_, senses.sensors, seed, physics.dt, physics.gravity, world_.state()),
+      estimator_(*robot_, senses.sensors, physics.dt, physics.gravity, world_.state()),
       body_(robot_->model),
       true_body_(robot_->model),
       controller_(*robot_),
       limp_damping_(limp_damping * dynamic_scale(*robot_).damping()) {
   const auto joints = static_cast<Eigen::Index>(robot_->model.joint_count());
   torque_ = Eigen::VectorXd::Zero(joints);
-  torque_ring_.assign(static_cast<std::size_t>(std::lround(senses.control_delay / dt)), torque_);
+  torque_ring_.assign(static_cast<std::size_t>(std::lround(senses.control_delay / physics.dt)),
+                      torque_);
   body_.update(world_.state(), world_.parameters().gravity);
   true_body_.update(world_.state(), world_.parameters().gravity);
   place_robot(body_, measurement_);
@@ -74,6 +78,7 @@ void FullBodyPlant::read_loads() {
   double load = 0.0;
   Vec2 moment = Vec2::Zero();
   for (const BulletWorld::Contact& contact : world_.contacts()) {
+    if (!contact.with_ground()) continue;
     load += contact.force.z();
     moment += contact.force.z() * contact.point.head<2>();
     for (const Side side : {Side::left, Side::right}) {
@@ -168,13 +173,15 @@ Vec3 FullBodyPlant::point_of(const AppliedForce& force) const {
 }
 
 std::string FullBodyPlant::fall_reason() const {
-  if (truth_.com.z() < fall_height_share * robot_->description.walk.com_height_m) {
+  const double height = truth_.com.z() - terrain_.height(truth_.com.head<2>());
+  if (height < fall_height_share * robot_->description.walk.com_height_m) {
     return "the centre of mass is too low";
   }
   const LinkPlace& torso = robot_->model.links.at(robot_->description.torso);
   const Vec3 up = true_body().rotation(torso.body) * torso.pose.linear().col(2);
   if (std::acos(std::clamp(up.z(), -1.0, 1.0)) > fall_tilt) return "the torso leans too far";
   for (const BulletWorld::Contact& contact : world_.contacts()) {
+    if (!contact.with_ground()) continue;
     const bool is_foot = contact.body == robot_->foot_body(Side::left) ||
                          contact.body == robot_->foot_body(Side::right);
     if (!is_foot) {

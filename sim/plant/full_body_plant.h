@@ -18,9 +18,11 @@ namespace stagger::sim {
 /// Control sees the estimate of the state, or the state itself where the senses are perfect.
 class FullBodyPlant final : public Plant {
  public:
-  /// The seed is that of the sensors. Throws std::invalid_argument for senses that are not valid.
-  FullBodyPlant(std::shared_ptr<const Robot> robot, double dt, const SenseParameters& senses,
-                std::uint64_t seed);
+  /// Stands on the terrain at rest. The seed is that of the sensors. Throws std::invalid_argument
+  /// for senses that are not valid.
+  FullBodyPlant(std::shared_ptr<const Robot> robot, const PhysicsParameters& physics,
+                const SenseParameters& senses, std::uint64_t seed,
+                const Terrain& terrain = Terrain({}));
 
   const engine::Measurement& measurement() const override { return measurement_; }
   void step(const engine::WalkingTargets& targets, std::span<const AppliedForce> forces) override;
@@ -45,6 +47,7 @@ class FullBodyPlant final : public Plant {
 
   std::shared_ptr<const Robot> robot_;
   SenseParameters senses_;
+  Terrain terrain_;
   BulletWorld world_;
   Sensors sensors_;
   Estimator estimator_;

@@ -1,5 +1,6 @@
 // Where a tick's time goes: engine alone, point mass, full body, and the full body's parts.
 #include <benchmark/benchmark.h>
+#include <malloc.h>
 
 #include "engine/walking_engine.h"
 #include "sim/engine_setup.h"
@@ -15,20 +16,40 @@ std::shared_ptr<const Robot> kasaei() {
   return robot;
 }
 
-void simulation_tick(benchmark::State& state, PlantKind plant, bool perfect_state) {
+SimulationConfig config_of(PlantKind plant, TerrainKind terrain = TerrainKind::flat) {
   SimulationConfig config;
   config.robot = kasaei();
   config.plant = plant;
-  config.senses.perfect_state = perfect_state;
+  config.terrain.kind = terrain;
+  config.terrain.unevenness = 0.01;
+  return config;
+}
+
+SimulationConfig without_self_collision() {
+  SimulationConfig config = config_of(PlantKind::bullet);
+  config.physics.self_collision = false;
+  return config;
+}
+
+SimulationConfig with_perfect_state() {
+  SimulationConfig config = config_of(PlantKind::bullet);
+  config.senses.perfect_state = true;
+  return config;
+}
+
+void simulation_tick(benchmark::State& state, const SimulationConfig& config) {
   Simulation simulation(config);
   simulation.walk({});
   for (auto _ : state) benchmark::DoNotOptimize(simulation.step().tick);
   state.counters["x_real_time"] = benchmark::Counter(
       static_cast<double>(state.iterations()) * Simulation::tick_s, benchmark::Counter::kIsRate);
 }
-BENCHMARK_CAPTURE(simulation_tick, bullet, PlantKind::bullet, false);
-BENCHMARK_CAPTURE(simulation_tick, bullet_perfect_state, PlantKind::bullet, true);
-BENCHMARK_CAPTURE(simulation_tick, lipm, PlantKind::lipm, true);
+BENCHMARK_CAPTURE(simulation_tick, bullet, config_of(PlantKind::bullet));
+BENCHMARK_CAPTURE(simulation_tick, bullet_perfect_state, with_perfect_state());
+BENCHMARK_CAPTURE(simulation_tick, bullet_legs_pass_through, without_self_collision());
+BENCHMARK_CAPTURE(simulation_tick, bullet_uneven,
+                  config_of(PlantKind::bullet, TerrainKind::uneven));
+BENCHMARK_CAPTURE(simulation_tick, lipm, config_of(PlantKind::lipm));
 
 void engine_tick(benchmark::State& state) {
   LipmPlant plant(lipm_parameters(*kasaei()), Simulation::tick_s);
@@ -44,16 +65,30 @@ void engine_tick(benchmark::State& state) {
 }
 BENCHMARK(engine_tick);
 
-void world_construction(benchmark::State& state) {
-  for (auto _ : state) benchmark::DoNotOptimize(FullBodyPlant(kasaei(), Simulation::tick_s, {}, 1));
+/// A trial's world, and what it holds of the heap.
+void world_construction(benchmark::State& state, TerrainKind terrain) {
+  const SimulationConfig config = config_of(PlantKind::bullet, terrain);
+  for (auto _ : state) benchmark::DoNotOptimize(Simulation(config));
+  const auto held = [] {
+    const struct mallinfo2 heap = mallinfo2();
+    return static_cast<double>(heap.uordblks + heap.hblkhd);
+  };
+  const double before = held();
+  Simulation simulation(config);
+  simulation.walk({});
+  for (int i = 0; i < 1000; ++i) simulation.step();
+  state.counters["MB"] = (held() - before) / 1e6;
 }
-BENCHMARK(world_construction)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(world_construction, flat, TerrainKind::flat)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(world_construction, uneven, TerrainKind::uneven)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(world_construction, platform, TerrainKind::platform)
+    ->Unit(benchmark::kMicrosecond);
 
 // The parts of the full body's tick beside the engine, one at a time, standing: physics, state
 // estimate, control.
 
 struct Standing {
-  FullBodyPlant plant{kasaei(), Simulation::tick_s, {}, 1};
+  FullBodyPlant plant{kasaei(), {}, {}, 1};
   engine::WalkingEngine engine{
       engine_parameters(*kasaei(), PlantKind::bullet, {}, Simulation::tick_s), plant.measurement()};
   RobotState state = nominal_state(*kasaei());

@@ -163,6 +163,7 @@ test('values out of range are refused', async () => {
     ['/api/v1/simulation/reset', { seed: -1 }, '/seed'],
     ['/api/v1/simulation/reset', { state: 'exact' }, '/state'],
     ['/api/v1/simulation/reset', { control_delay_ms: 11 }, '/control_delay_ms'],
+    ['/api/v1/simulation/reset', { terrain: { kind: 'flat', friction: 2 } }, '/terrain/friction'],
   ]) {
     const answer = await server.post(target, body);
     refused(answer, 422);

@@ -31,6 +31,7 @@ TEST(StreamJson, HelloDescribesEveryChannel) {
   EXPECT_EQ(hello["protocol"], 1);
   EXPECT_EQ(hello["session_id"], "0011");
   EXPECT_EQ(hello["tick_s"], 0.001);
+  EXPECT_EQ(hello["terrain"]["kind"], "flat");
   ASSERT_EQ(hello["channels"].size(), info->channels.size());
   EXPECT_EQ(hello["states"].size(), 4U);
   for (const auto& channel : hello["channels"]) {

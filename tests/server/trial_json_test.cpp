@@ -115,6 +115,27 @@ TEST(TrialJson, EveryResultSaysWhatControlKnewAndHowLateItActed) {
               UnorderedElementsAre("/control_delay_ms"));
 }
 
+TEST(TrialJson, TheTerrainIsToldInFull) {
+  sim::JsonErrors errors;
+  const char* text = R"({"robot":"kasaei","terrain":{"kind":"uneven","height_m":0.02},
+                         "self_collision":false})";
+  const Json resolved = trial_spec_json(read_trial(sim::parse_json(text), errors));
+  EXPECT_TRUE(errors.empty());
+  EXPECT_EQ(resolved["terrain"]["height_m"], 0.02);
+  EXPECT_EQ(resolved["terrain"]["friction"], 0.8);
+  EXPECT_EQ(resolved["self_collision"], false);
+  EXPECT_EQ(trial_spec_json({})["terrain"]["kind"], "flat");
+  EXPECT_EQ(trial_spec_json({})["self_collision"], true);
+}
+
+TEST(TrialJson, ThePointMassTakesFlatGroundOnly) {
+  const auto on = [](const std::string& terrain) {
+    return errors_of(R"({"robot":"a","plant":"lipm","terrain":)" + terrain + "}");
+  };
+  EXPECT_THAT(on(R"({"kind":"flat"})"), testing::IsEmpty());
+  EXPECT_THAT(on(R"({"kind":"slope","angle_deg":3})"), UnorderedElementsAre("/terrain"));
+}
+
 TEST(TrialJson, WhatDidNotHappenIsNull) {
   sim::TrialResult result;
   result.outcome = sim::TrialOutcome::timeout;

@@ -69,6 +69,9 @@ class BulletWorldTest : public testing::Test {
     for (const BulletWorld::Contact& contact : world.contacts()) {
       body_.jacobian(contact.body, contact.point, jacobian);
       rest -= jacobian.topRows<3>().transpose() * contact.force;
+      if (contact.with_ground()) continue;
+      body_.jacobian(contact.other, contact.point, jacobian);
+      rest += jacobian.topRows<3>().transpose() * contact.force;
     }
     for (std::size_t i = 0; i < pushes.size(); ++i) {
       const int pushed = robot_->model.links.at(pushes[i].link).body;
@@ -79,8 +82,52 @@ class BulletWorldTest : public testing::Test {
   }
   Vec3 ground_force(const BulletWorld& world) const {
     Vec3 sum = Vec3::Zero();
-    for (const BulletWorld::Contact& contact : world.contacts()) sum += contact.force;
+    for (const BulletWorld::Contact& contact : world.contacts()) {
+      if (contact.with_ground()) sum += contact.force;
+    }
     return sum;
+  }
+  /// Greatest moment that forces between bodies may seem to leave over: Bullet lets a force and its
+  /// opposite act where each surface is, up to two millimetres apart [N m].
+  double gap_moment(const BulletWorld& world) const {
+    double sum = 0.0;
+    for (const BulletWorld::Contact& contact : world.contacts()) {
+      if (!contact.with_ground()) sum += 2e-3 * contact.force.norm();
+    }
+    return sum;
+  }
+  /// Presses the legs together; all else but the limp feet stays about where it is.
+  Eigen::VectorXd legs_together(const RobotState& state) const {
+    Eigen::VectorXd result = no_torque_;
+    for (const std::string leg : {"left", "right"}) {
+      for (const char* joint : {"_hip_yaw", "_hip_pitch", "_knee"}) {
+        const int i = robot_->model.joint_index(leg + joint);
+        result[i] = -400.0 * (state.q[i] - standing_.q[i]) - 5.0 * state.qd[i];
+      }
+      const int roll = robot_->model.joint_index(leg + "_hip_roll");
+      result[roll] = (leg == "left" ? -20.0 : 20.0) - 5.0 * state.qd[roll];
+    }
+    return result;
+  }
+  /// Distance between the axes of the two shanks' cylinders [m].
+  double shank_distance(const RobotState& state) const {
+    const auto poses = body_poses(robot_->model, state);
+    std::array<std::array<Vec3, 2>, 2> ends;
+    for (const Side side : {Side::left, Side::right}) {
+      const char* link = side == Side::left ? "left_shank" : "right_shank";
+      const int body = robot_->model.links.at(link).body;
+      const Shape& cylinder = robot_->model.bodies[body].shapes.at(0);
+      const Eigen::Isometry3d pose = poses[body] * cylinder.pose;
+      const Vec3 half(0.0, 0.0, 0.5 * cylinder.size.y());
+      ends[engine::index(side)] = {pose * half, pose * Vec3(-half)};
+    }
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i <= 100; ++i) {
+      const Vec3 a = ends[0][0] + 0.01 * i * (ends[0][1] - ends[0][0]);
+      const Vec3 b = ends[1][0] + 0.01 * i * (ends[1][1] - ends[1][0]);
+      least = std::min(least, (a - b).norm());
+    }
+    return least;
   }
 
   std::shared_ptr<const Robot> robot_ = load_robot("robots/kasaei");
@@ -187,7 +234,9 @@ TEST_F(BulletWorldTest, ContactForcesExplainTheMotion) {
   for (int i = 0; i < 800; ++i) {
     world.step(no_torque_, {});
     const double force = ground_force(world).norm();
-    ASSERT_NEAR(unexplained(before, world, {}, {}).head<6>().norm(), 0.0, 1e-3 + 1e-6 * force)
+    const Eigen::VectorXd rest = unexplained(before, world, {}, {});
+    ASSERT_NEAR(rest.head<3>().norm(), 0.0, 1e-3 + 1e-6 * force) << "tick " << i;
+    ASSERT_NEAR(rest.segment<3>(3).norm(), 0.0, 1e-3 + 1e-6 * force + gap_moment(world))
         << "tick " << i;
     greatest = std::max(greatest, force);
     before = world.state();
@@ -213,7 +262,9 @@ TEST_F(BulletWorldTest, FrictionLimitsSliding) {
   for (const double friction : {0.3, 0.8}) {
     RobotState start = standing_;
     start.base_velocity = Vec3(2.0, 0.0, 0.0);
-    BulletWorld world(robot_->model, start, {.friction = friction});
+    TerrainParameters terrain;
+    terrain.friction = friction;
+    BulletWorld world(robot_->model, start, {}, Terrain(terrain));
     world.step(holding_torque(start), {});
     const Vec3 force = ground_force(world);
     EXPECT_GT(force.z(), 1.0);
@@ -230,6 +281,60 @@ TEST_F(BulletWorldTest, TheTorsoOnTheGroundIsSeen) {
     torso_down = world.touches_ground(0);
   }
   EXPECT_TRUE(torso_down);
+}
+
+TEST_F(BulletWorldTest, LegsThatArePressedTogetherStopAtEachOther) {
+  constexpr double shank_diameter = 0.09;
+  for (const bool self_collision : {true, false}) {
+    BulletWorld world(robot_->model, flying(), {.gravity = 0.0, .self_collision = self_collision});
+    double least = 1.0;
+    RobotState before = world.state();
+    std::size_t touching = 0;
+    for (int i = 0; i < 1000; ++i) {
+      world.step(legs_together(world.state()), {});
+      least = std::min(least, shank_distance(world.state()));
+      touching += world.contacts().empty() ? 0 : 1;
+      for (const BulletWorld::Contact& contact : world.contacts()) {
+        ASSERT_FALSE(contact.with_ground());
+        ASSERT_FALSE(world.touches_ground(contact.body));
+      }
+      // Whatever the legs do to each other, the whole robot is not accelerated by it.
+      const Eigen::VectorXd rest = unexplained(before, world, {}, {});
+      ASSERT_NEAR(rest.head<3>().norm(), 0.0, 1e-3) << "tick " << i;
+      ASSERT_NEAR(rest.segment<3>(3).norm(), 0.0, 1e-3 + gap_moment(world)) << "tick " << i;
+      before = world.state();
+    }
+    if (self_collision) {
+      EXPECT_GT(least, shank_diameter - 0.002);
+      EXPECT_LT(least, shank_diameter + 0.002);
+      EXPECT_GT(touching, 500u);
+    } else {
+      EXPECT_LT(least, 0.5 * shank_diameter);
+      EXPECT_EQ(touching, 0u);
+    }
+  }
+}
+
+TEST_F(BulletWorldTest, BodiesThatOverlapAtTheStartLetEachOtherThrough) {
+  RobotState crossed = flying();
+  crossed.q[robot_->model.joint_index("left_hip_roll")] = -0.3;
+  crossed.q[robot_->model.joint_index("right_hip_roll")] = 0.3;
+  BulletWorld world(robot_->model, crossed, {.gravity = 0.0});
+  for (int i = 0; i < 100; ++i) world.step(no_torque_, {});
+  EXPECT_LT((world.state().q - crossed.q).norm(), 1e-9);
+}
+
+TEST_F(BulletWorldTest, SelfCollisionCostsNoBitWhileNothingTouches) {
+  StateHash hashes[2];
+  for (const bool self_collision : {true, false}) {
+    BulletWorld world(robot_->model, standing_, {.self_collision = self_collision});
+    const AppliedForce push{"torso", std::nullopt, Vec3(10.0, 20.0, 0.0)};
+    for (int i = 0; i < 500; ++i) {
+      world.step(holding_torque(world.state()), {&push, i < 50 ? 1u : 0u});
+      world.mix_state(hashes[self_collision ? 1 : 0]);
+    }
+  }
+  EXPECT_EQ(hashes[0].value(), hashes[1].value());
 }
 
 TEST_F(BulletWorldTest, JointLimitsHold) {

@@ -3,6 +3,7 @@
 #include "server/http/routes/routes.h"
 #include "server/json/gait_json.h"
 #include "server/json/senses_json.h"
+#include "server/json/terrain_json.h"
 #include "sim/state_hash.h"
 
 namespace stagger::server {
@@ -16,7 +17,8 @@ Json state_json(const SessionState& state, const StreamCounters& stream) {
             {"plant", name_of(state.plant)},
             {"seed", state.seed}};
   write_senses(json, state.plant, state.senses);
-  json.update({{"tick", state.tick},
+  json.update({{"terrain", terrain_json(state.terrain)},
+               {"tick", state.tick},
                {"time_s", state.time_s},
                {"running", state.running},
                {"walking_state", name_of(state.walking_state)},
@@ -50,6 +52,10 @@ HttpResponse reset(const HttpRequest& request, Services& services) {
     config.plant = read_plant(reader).value_or(present.plant);
     config.seed = read_seed(reader).value_or(present.seed);
     config.senses = read_senses(reader, present.senses);
+    config.terrain = present.terrain;
+    reader.optional_object(
+        "terrain", [&](sim::JsonReader& terrain) { config.terrain = read_terrain(terrain); });
+    refuse_terrain_of_lipm(reader, config.plant, config.terrain);
   });
   config.robot = services.robots.find(robot);
   if (config.robot == nullptr) {

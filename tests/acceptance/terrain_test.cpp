@@ -1,0 +1,100 @@
+// Tier 3: the full body walks on ground that its engine is told nothing of.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/simulation.h"
+
+namespace stagger::sim {
+namespace {
+
+std::shared_ptr<const Robot> kasaei() {
+  static const std::shared_ptr<const Robot> robot = load_robot("robots/kasaei");
+  return robot;
+}
+
+struct Walked {
+  std::string fall;
+  Vec2 way;  ///< of the CoM
+};
+
+Walked walk(const TerrainParameters& terrain, double seconds, std::uint64_t seed = 1,
+            const engine::WalkCommand& command = {0.3, 0.0, 0.0}) {
+  SimulationConfig config;
+  config.robot = kasaei();
+  config.seed = seed;
+  config.terrain = terrain;
+  Simulation simulation(config);
+  simulation.walk(command);
+  for (int i = 0; i < std::lround(seconds / Simulation::tick_s); ++i) simulation.step();
+  return {simulation.fall_reason(), simulation.frame().com.head<2>()};
+}
+
+class FullBodyTerrainSlope : public ::testing::TestWithParam<int> {};
+
+INSTANTIATE_TEST_SUITE_P(Uphill, FullBodyTerrainSlope, ::testing::Values(0, 90, 180));
+
+TEST_P(FullBodyTerrainSlope, IsWalkedAtAboutTheSpeedOfTheCommand) {
+  TerrainParameters terrain;
+  terrain.kind = TerrainKind::slope;
+  terrain.slope_angle = 5.0 * M_PI / 180.0;
+  terrain.uphill_angle = GetParam() * M_PI / 180.0;
+  const Walked walked = walk(terrain, 20.0);
+  EXPECT_EQ(walked.fall, "");
+  EXPECT_NEAR(walked.way.norm(), 0.3 * (20.0 - 1.0), 0.1 * 0.3 * (20.0 - 1.0));
+}
+
+TEST(FullBodyTerrain, TilesOfTwoCentimetresAreWalkedForAMinute) {
+  TerrainParameters terrain;
+  terrain.kind = TerrainKind::uneven;
+  terrain.unevenness = 0.02;
+  for (const std::uint64_t seed : {1, 2}) {
+    const Walked walked = walk(terrain, 60.0, seed);
+    EXPECT_EQ(walked.fall, "") << seed;
+    EXPECT_GT(walked.way.norm(), 14.0) << seed;
+  }
+}
+
+TEST(FullBodyTerrain, APlatformIsSteppedOnWhileItMovesAndIsShoved) {
+  TerrainParameters terrain;
+  terrain.kind = TerrainKind::platform;
+  terrain.platform_velocity = {0.05, 0.0};
+  terrain.shoves = {{4.0, 0.3, Vec2(0.0, 0.03)}};
+  EXPECT_EQ(walk(terrain, 10.0, 1, {}).fall, "");
+}
+
+TEST(FullBodyTerrain, IsTheSameAgainToTheBit) {
+  TerrainParameters terrain;
+  terrain.kind = TerrainKind::uneven;
+  terrain.unevenness = 0.03;
+  terrain.patches = {{Vec2(0.5, -1.0), Vec2(1.0, 1.0), 0.6}};
+  const auto hash = [&terrain](std::uint64_t seed) {
+    SimulationConfig config;
+    config.robot = kasaei();
+    config.seed = seed;
+    config.terrain = terrain;
+    Simulation simulation(config);
+    simulation.walk({0.3, 0.0, 0.0});
+    for (int i = 0; i < 6000; ++i) simulation.step();
+    return simulation.state_hash();
+  };
+  const std::uint64_t first = hash(1);
+  EXPECT_NE(hash(2), first);
+  EXPECT_EQ(hash(1), first);
+}
+
+TEST(FullBodyTerrain, LegsThatDoNotTouchWalkTheSameWithAndWithoutSelfCollision) {
+  const auto hash = [](bool self_collision) {
+    SimulationConfig config;
+    config.robot = kasaei();
+    config.physics.self_collision = self_collision;
+    Simulation simulation(config);
+    simulation.walk({0.3, 0.0, 0.0});
+    for (int i = 0; i < 6000; ++i) simulation.step();
+    return simulation.state_hash();
+  };
+  EXPECT_EQ(hash(true), hash(false));
+}
+
+}  // namespace
+}  // namespace stagger::sim
