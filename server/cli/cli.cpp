@@ -85,6 +85,13 @@ int run_command_line(int argc, char** argv) {
   CLI::App* robots_app = app.add_subcommand("robots", "List the robots");
   robots_app->add_flag("--json", robots.json, "Print one JSON object");
 
+  RobotsCheckOptions check;
+  CLI::App* check_app =
+      robots_app->add_subcommand("check", "Look into any URDF: legs, soles, pose, quirks");
+  check_app->add_option("urdf", check.urdf, "URDF of a biped")->required();
+  check_app->add_option("--write", check.write, "Folder to write a robot's description to");
+  check_app->add_flag("--json", check.json, "Print one JSON object");
+
   PaperOptions paper;
   CLI::App* paper_app =
       app.add_subcommand("paper", "Repeat the paper's experiments, beside its numbers");
@@ -114,6 +121,7 @@ int run_command_line(int argc, char** argv) {
 
   try {
     if (paper_app->parsed()) return paper_command(paper);
+    if (check_app->parsed()) return robots_check_command(check);
     const Folders folders = find_folders(robots_folder, web_folder);
     if (serve_app->parsed()) return serve_command(serve, folders);
     if (run_app->parsed()) return run_command(run, folders);

@@ -40,6 +40,12 @@ struct RobotsOptions {
   bool json = false;
 };
 
+struct RobotsCheckOptions {
+  std::string urdf;
+  std::string write;  ///< folder to write a description to; empty: none
+  bool json = false;
+};
+
 struct PaperOptions {
   std::string section;  ///< "plan", "lqg", "scenario1", "scenario2", "robustness"; empty: all
   bool json = false;
@@ -59,6 +65,8 @@ int run_command(const RunOptions& options, const Folders& folders);
 int trial_command(const TrialOptions& options, const Folders& folders);
 /// Lists the robots.
 int robots_command(const RobotsOptions& options, const Folders& folders);
+/// Finds the biped in a URDF and tells what was found; exit_no for what cannot walk.
+int robots_check_command(const RobotsCheckOptions& options);
 /// The paper's experiments beside what it publishes and beside the ceilings.
 int paper_command(const PaperOptions& options);
 

@@ -97,8 +97,8 @@ std::string FullBodyPlant::fall_reason() const {
   if (measurement_.com.z() < fall_height_share * robot_->description.walk.com_height_m) {
     return "the centre of mass is too low";
   }
-  const LinkPlace& torso = robot_->model.links.at(robot_->description.torso);
-  const Vec3 up = body_.rotation(torso.body) * torso.pose.linear().col(2);
+  const int torso = robot_->model.links.at(robot_->description.torso).body;
+  const Vec3 up = body_.rotation(torso) * robot_->torso_in_body().col(2);
   if (std::acos(std::clamp(up.z(), -1.0, 1.0)) > fall_tilt) return "the torso leans too far";
   for (const BulletWorld::Contact& contact : world_.contacts()) {
     const bool is_foot = contact.body == robot_->foot_body(Side::left) ||
