@@ -22,7 +22,11 @@ double assumed_share(LegRole role) {
   return role == LegRole::ankle_pitch ? 0.4 : 0.3;
 }
 
-double rounded(double value, double to) { return std::round(value / to) * to; }
+/// To so many digits after the point.
+double rounded(double value, int digits) {
+  const double scale = std::pow(10.0, digits);
+  return std::round(value * scale) / scale;
+}
 
 /// Sole's edges from the ankle's centre along the sole's x and y axes.
 struct Edges {
@@ -53,7 +57,7 @@ std::map<std::string, MotorLimits> assumed_motors(const RobotModel& model, const
           body.effort <= greatest_effort_share * scale) {
         continue;
       }
-      const double effort = std::max(0.1, rounded(assumed_share(joint.role) * scale, 0.1));
+      const double effort = std::max(0.1, rounded(assumed_share(joint.role) * scale, 1));
       motors[joint.name].effort = effort;
       std::ostringstream what;
       std::ostringstream answer;
@@ -76,15 +80,15 @@ WalkDescription suggested_walk(const StandingPose& pose, double leg_length, doub
   const double time = std::sqrt(pose.com_height);
   const double least_width = sole_width + std::max(0.012, 0.025 * leg_length);
   WalkDescription walk;
-  walk.com_height_m = rounded(pose.com_height, 1e-4);
-  walk.stance_width_m = rounded(std::max(pose.stance_width, least_width), 1e-4);
-  walk.swing_height_m = rounded(std::clamp(0.05 * leg_length, 0.01, 0.1), 1e-3);
-  walk.t_ss_s = rounded(std::max(0.15, 0.4 * time), 0.01);
-  walk.t_ds_s = rounded(std::max(0.03, 0.1 * time), 0.01);
-  walk.t_init_s = rounded(std::max(0.2, 0.6 * time), 0.01);
-  walk.max_step_length_m = rounded(0.6 * leg_length, 1e-3);
-  walk.min_step_width_m = std::min(rounded(least_width, 1e-3), walk.stance_width_m);
-  walk.max_step_width_m = rounded(std::max(0.6 * leg_length, 1.5 * walk.stance_width_m), 1e-3);
+  walk.com_height_m = rounded(pose.com_height, 4);
+  walk.stance_width_m = rounded(std::max(pose.stance_width, least_width), 4);
+  walk.swing_height_m = rounded(std::clamp(0.05 * leg_length, 0.01, 0.1), 3);
+  walk.t_ss_s = rounded(std::max(0.15, 0.4 * time), 2);
+  walk.t_ds_s = rounded(std::max(0.03, 0.1 * time), 2);
+  walk.t_init_s = rounded(std::max(0.2, 0.6 * time), 2);
+  walk.max_step_length_m = rounded(0.6 * leg_length, 3);
+  walk.min_step_width_m = std::min(rounded(least_width, 3), walk.stance_width_m);
+  walk.max_step_width_m = rounded(std::max(0.6 * leg_length, 1.5 * walk.stance_width_m), 3);
   return walk;
 }
 

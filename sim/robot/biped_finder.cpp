@@ -17,7 +17,7 @@ using engine::Side;
 constexpr double same_direction = 1e-4;
 constexpr double tilt_worth_telling = 0.01;  // [rad]
 
-double rounded(double value) { return std::round(value * 1e6) * 1e-6 + 0.0; }
+double rounded(double value) { return std::round(value * 1e6) / 1e6 + 0.0; }
 
 /// Roll, pitch, yaw about fixed axes, as a URDF means them; rotation_of() is the way back.
 Vec3 rpy_of(const Eigen::Matrix3d& r) {
@@ -89,6 +89,7 @@ class Finder {
     RobotModel& model = found_.robot.model;
     model =
         import_urdf_file(found_.urdf, {ImportMode::mend, {}, biped.locked, biped.motors}, &again);
+    take(again.mended);
     found_.robot.name = model.name;
     found_.robot.folder = found_.urdf.parent_path();
     // Locked joints need not be at zero: the points and axes of the legs are those of this model.

@@ -334,8 +334,10 @@ class LegFinder {
                        "the side");
     }
     if (!leg.has(LegRole::ankle_roll)) {
-      tell("foot '" + leg.foot + "'", "no ankle roll joint",
-           "it stands as wide as its hips; pushes from the side are hard on it");
+      tell(
+          "foot '" + leg.foot + "'", "no ankle roll joint",
+          "stands as wide as its hips; with flat feet it cannot shift its weight, so do not expect "
+          "it to walk here");
     }
     if (!leg.has(LegRole::hip_yaw)) {
       tell("foot '" + leg.foot + "'", "no hip yaw joint", "it is not able to turn its feet");

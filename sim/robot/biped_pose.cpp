@@ -235,7 +235,7 @@ class Poser {
     for (std::size_t i = 0; i < 2; ++i) {
       for (const int joint : columns_[i]) {
         const Body& body = robot_.model.bodies[static_cast<std::size_t>(joint) + 1];
-        const double rounded = std::round(state_.q[joint] * 1e6) * 1e-6;
+        const double rounded = std::round(state_.q[joint] * 1e6) / 1e6;
         pose.joints[body.joint] = std::clamp(rounded, body.lower, body.upper);
       }
     }

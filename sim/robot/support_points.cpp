@@ -20,14 +20,15 @@ void add_box(const Shape& shape, const Eigen::Isometry3d& pose, std::vector<Vec3
 void add_cylinder(const Shape& shape, const Eigen::Isometry3d& pose, const Vec3& up,
                   std::vector<Vec3>& points) {
   const double radius = shape.size.x();
-  // Lowest points of a cylinder that lies.
   const Vec3 local_up = pose.linear().transpose() * up;
   const Vec3 down(-local_up.x(), -local_up.y(), 0.0);
+  const bool lies = down.norm() > 0.7;
   for (const double z : {-0.5 * shape.size.y(), 0.5 * shape.size.y()}) {
     if (down.norm() > 1e-6) {
       const Vec3 low = radius * down.normalized();
       points.push_back(pose * Vec3(low.x(), low.y(), z));
     }
+    if (lies) continue;  // it touches along a line
     for (int i = 0; i < rim_points; ++i) {
       const double angle = 2.0 * M_PI * i / rim_points;
       points.push_back(pose * Vec3(radius * std::cos(angle), radius * std::sin(angle), z));

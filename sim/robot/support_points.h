@@ -7,8 +7,9 @@
 
 namespace stagger::sim {
 
-/// Points of all shapes, as `pose` puts them: corners of boxes, points of hulls, rims of cylinders,
-/// and of whatever is round its lowest points against `up`. Their lowest is the shapes' lowest.
+/// Points of all shapes, as `pose` puts them: corners of boxes, points of hulls, rims of cylinders
+/// that stand, and of whatever is round its lowest points against `up`. Their lowest is the shapes'
+/// lowest.
 std::vector<Vec3> support_points(const std::vector<Shape>& shapes, const Eigen::Isometry3d& pose,
                                  const Vec3& up);
 

@@ -48,7 +48,7 @@ class QuirkList {
   void add(const std::string& kind, const std::string& name, std::string what, std::string answer) {
     for (Group& group : groups_) {
       if (group.kind != kind || group.what != what || group.answer != answer) continue;
-      group.names.push_back(name);
+      if (group.names.back() != name) group.names.push_back(name);
       return;
     }
     groups_.push_back({kind, {name}, std::move(what), std::move(answer)});
@@ -98,8 +98,7 @@ class Importer {
       fail("no link has a mass; allowed: a robot that weighs something, given in <inertial>");
     }
     report_.quirks = quirks_.list();
-    const Quirks mended = options_.mode == ImportMode::strict ? Quirks{} : mend_masses(model_);
-    report_.quirks.insert(report_.quirks.end(), mended.begin(), mended.end());
+    if (options_.mode != ImportMode::strict) report_.mended = mend_masses(model_);
     return std::move(model_);
   }
 

@@ -39,6 +39,7 @@ struct HeldJoint {
 /// What a survey has to tell beside the model.
 struct ImportReport {
   Quirks quirks;
+  Quirks mended;                                        ///< what was filled in for moving bodies
   std::map<std::string, std::string> mimics;            ///< joint -> the joint that it follows
   std::map<std::string, HeldJoint> held;                ///< joints that do not turn
   std::map<std::string, std::filesystem::path> meshes;  ///< URI of a collision mesh -> its file

@@ -96,7 +96,13 @@ urdf::ModelInterfaceSharedPtr parse_urdf(const std::string& xml, const std::stri
     listener.messages.emplace_back(error.what());
   }
   console_bridge::restorePreviousOutputHandler();
-  if (!urdf || !urdf->getRoot()) {
+  // urdfdom goes on without an inertia or a shape that it could not read; a robot does not.
+  const bool lost = std::any_of(listener.messages.begin(), listener.messages.end(),
+                                [](const std::string& message) {
+                                  return message.starts_with("Could not parse inertial") ||
+                                         message.starts_with("Could not parse collision");
+                                });
+  if (!urdf || !urdf->getRoot() || lost) {
     std::string said;
     for (const std::string& message : listener.messages) said += "; " + message;
     refuse("is no URDF that can be read" + said);
