@@ -7,6 +7,7 @@
 #include "sim/frame.h"
 #include "sim/robot/biped_figures.h"
 #include "sim/robot/biped_sole.h"
+#include "sim/robot/urdf_shapes.h"
 
 namespace stagger::sim {
 namespace {
@@ -123,8 +124,12 @@ class Finder {
       foot.link = found_.legs.leg[index(side)].foot;
       const int body = found_.robot.foot_body(side);
       FoundSole& sole = soles[index(side)];
-      sole = find_sole(found_.robot.model.bodies[static_cast<std::size_t>(body)],
-                       poses[body].linear().transpose() * found_.legs.axes);
+      try {
+        sole = find_sole(found_.robot.model.bodies[static_cast<std::size_t>(body)],
+                         poses[body].linear().transpose() * found_.legs.axes);
+      } catch (const CannotWalk& reason) {
+        throw CannotWalk(reason.what() + lost_geometry(body));
+      }
       if (sole.tilt > tilt_worth_telling) {
         std::ostringstream text;
         text << "its sole is tilted by " << sole.tilt << " rad at the zero pose";
@@ -147,6 +152,23 @@ class Finder {
       found_.quirks.push_back(
           {"feet", "the soles are not of one size", "the lesser counts for both"});
     }
+  }
+
+  /// What of a body's geometry was left out, and why: it may be the reason for a refusal.
+  std::string lost_geometry(int body) const {
+    std::string text;
+    for (const Quirk& quirk : found_.quirks) {
+      if (quirk.answer != geometry_left_out) continue;
+      for (const auto& [link, place] : found_.robot.model.links) {
+        if (place.body != body || quirk.where.find("'" + link + "'") == std::string::npos) continue;
+        text += "; ";
+        text += quirk.where;
+        text += ": ";
+        text += quirk.what;
+        break;
+      }
+    }
+    return text;
   }
 
   void describe_torso() {

@@ -176,8 +176,9 @@ class LegFinder {
         "the leg that ends at '" + (chain.empty() ? "?" : model_.bodies[chain.back()].name) + "'";
     for (const auto& [joint, held] : report_.held) {
       if (std::find(chain.begin(), chain.end(), held.body) != chain.end()) {
-        throw CannotWalk(who + " has the " + held.type + " joint '" + joint +
-                         "'; allowed: joints that turn");
+        std::string text = who;
+        text.append(" has the ").append(held.type).append(" joint '").append(joint);
+        throw CannotWalk(text + "'; allowed: joints that turn");
       }
     }
     std::string passive;

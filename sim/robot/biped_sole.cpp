@@ -130,12 +130,10 @@ Vec2 range_at(const std::vector<Vec2>& hull, double x) {
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const Vec2& a = hull[i];
     const Vec2& b = hull[(i + 1) % hull.size()];
-    if (x < std::min(a.x(), b.x()) || x > std::max(a.x(), b.x())) continue;
-    const double share = b.x() == a.x() ? 0.0 : (x - a.x()) / (b.x() - a.x());
-    for (const double y : {a.y() + share * (b.y() - a.y()),
-                           b.x() == a.x() ? b.y() : a.y() + share * (b.y() - a.y())}) {
-      range = {std::min(range[0], y), std::max(range[1], y)};
-    }
+    // The ends of an edge at one x are those of its neighbours.
+    if (a.x() == b.x() || x < std::min(a.x(), b.x()) || x > std::max(a.x(), b.x())) continue;
+    const double y = a.y() + (x - a.x()) / (b.x() - a.x()) * (b.y() - a.y());
+    range = {std::min(range[0], y), std::max(range[1], y)};
   }
   return range;
 }
@@ -146,6 +144,7 @@ Rectangle greatest_inside(const std::vector<Vec2>& hull) {
   Rectangle best;
   if (hull.size() < 3) return best;
   std::vector<double> ends;
+  ends.reserve(hull.size() + cuts);
   for (const Vec2& p : hull) ends.push_back(p.x());
   const auto [low, high] = std::minmax_element(ends.begin(), ends.end());
   const double first = *low;
@@ -204,6 +203,7 @@ FoundSole find_sole(const Body& foot, const Eigen::Matrix3d& axes) {
     turn -= 0.5 * M_PI * std::round(turn / (0.5 * M_PI));
     if (std::abs(turn) > greatest_turn || std::abs(turn) < 1e-3) continue;
     std::vector<Vec2> turned;
+    turned.reserve(hull.size());
     for (const Vec2& p : hull) turned.emplace_back(Eigen::Rotation2Dd(-turn) * p);
     const Rectangle now = greatest_inside(turned);
     if (now.area() <= best.area() * (1.0 + worth_turning)) continue;

@@ -35,7 +35,7 @@ void check_size(Shape& shape, ShapeResult& result) {
       shape.size[0] = point_radius;
       result.answer = "taken as a sphere of 1 mm";
     } else {
-      result.answer = "left out";
+      result.answer = geometry_left_out;
       result.left_out = true;
     }
     return;
@@ -44,7 +44,7 @@ void check_size(Shape& shape, ShapeResult& result) {
 
 void leave_out(ShapeResult& result, std::string what) {
   result.what = std::move(what);
-  result.answer = "goes without this collision geometry";
+  result.answer = geometry_left_out;
   result.mended = true;
   result.left_out = true;
 }

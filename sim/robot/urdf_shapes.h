@@ -10,6 +10,9 @@
 
 namespace stagger::sim {
 
+/// Answer to collision geometry that cannot be used.
+inline constexpr const char* geometry_left_out = "goes without this collision geometry";
+
 /// Pose of urdfdom as Eigen's.
 Eigen::Isometry3d to_isometry(const urdf::Pose& pose);
 

@@ -50,7 +50,9 @@ TEST(RefuseBiped, FeetWithoutGeometry) {
   EXPECT_THAT(refusal(biped_urdf(plan)), HasSubstr("has no collision geometry"));
   plan.foot = Foot::mesh;
   plan.mesh = "package://nowhere/foot.stl";
-  EXPECT_THAT(refusal(biped_urdf(plan)), HasSubstr("has no collision geometry"));
+  const std::string reason = refusal(biped_urdf(plan));
+  EXPECT_THAT(reason, HasSubstr("has no collision geometry"));
+  EXPECT_THAT(reason, HasSubstr("there is no file for its mesh package://nowhere/foot.stl"));
 }
 
 TEST(RefuseBiped, FourJointsALeg) {
