@@ -11,7 +11,7 @@ void add_box(const Shape& shape, const Eigen::Isometry3d& pose, std::vector<Vec3
   for (const double x : {-0.5, 0.5}) {
     for (const double y : {-0.5, 0.5}) {
       for (const double z : {-0.5, 0.5}) {
-        points.push_back(pose * shape.size.cwiseProduct(Vec3(x, y, z)));
+        points.emplace_back(pose * shape.size.cwiseProduct(Vec3(x, y, z)));
       }
     }
   }
@@ -26,12 +26,12 @@ void add_cylinder(const Shape& shape, const Eigen::Isometry3d& pose, const Vec3&
   for (const double z : {-0.5 * shape.size.y(), 0.5 * shape.size.y()}) {
     if (down.norm() > 1e-6) {
       const Vec3 low = radius * down.normalized();
-      points.push_back(pose * Vec3(low.x(), low.y(), z));
+      points.emplace_back(pose * Vec3(low.x(), low.y(), z));
     }
     if (lies) continue;  // it touches along a line
     for (int i = 0; i < rim_points; ++i) {
       const double angle = 2.0 * M_PI * i / rim_points;
-      points.push_back(pose * Vec3(radius * std::cos(angle), radius * std::sin(angle), z));
+      points.emplace_back(pose * Vec3(radius * std::cos(angle), radius * std::sin(angle), z));
     }
   }
 }
@@ -51,10 +51,10 @@ std::vector<Vec3> support_points(const std::vector<Shape>& shapes, const Eigen::
         add_cylinder(shape, at, up, points);
         break;
       case Shape::Kind::sphere:
-        points.push_back(at.translation() - shape.size.x() * up);
+        points.emplace_back(at.translation() - shape.size.x() * up);
         break;
       case Shape::Kind::hull:
-        for (const Vec3& point : shape.points) points.push_back(at * point);
+        for (const Vec3& point : shape.points) points.emplace_back(at * point);
         break;
     }
   }
