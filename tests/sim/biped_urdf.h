@@ -41,11 +41,9 @@ class BipedUrdf {
   explicit BipedUrdf(const BipedPlan& plan) : plan_(plan) {}
 
   std::string text() {
-    const double l = plan_.leg;
     const Frame base = plan_.waist ? torso_first() : pelvis_first();
     for (const double side : {1.0, -1.0}) add_leg(base, side);
     if (plan_.arms) add_arms();
-    (void)l;
     return "<?xml version=\"1.0\"?>\n<robot name=\"made_up\">\n" + out_.str() + plan_.extra +
            "</robot>\n";
   }
@@ -113,7 +111,11 @@ class BipedUrdf {
       child.turn = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis).toRotationMatrix();
     }
     const Vec3 local = plan_.z_axes ? Vec3::UnitZ() : Vec3(child.turn.transpose() * axis);
-    if (sign < 0.0) std::swap(lower = -lower, upper = -upper);
+    if (sign < 0.0) {
+      std::swap(lower, upper);
+      lower = -lower;
+      upper = -upper;
+    }
     out_ << "<joint name=\"" << name << "\" type=\"revolute\">"
          << origin(parent, child.at, child.turn) << "<parent link=\"" << parent.link
          << "\"/><child link=\"" << child.link << "\"/><axis xyz=\"" << xyz(local) << "\"/><limit ";
