@@ -43,6 +43,11 @@ void add_world(CLI::App& command, WorldOptions& world) {
                   "From a measurement to the full body's torques made from it [ms]")
       ->check(CLI::Range(std::int64_t{0}, max_control_delay_ms))
       ->capture_default_str();
+  command
+      .add_option("--terrain", world.terrain,
+                  "flat, slope:DEG, slope:DEG:UPHILL_DEG, uneven:METRES, or a trial's terrain as "
+                  "JSON")
+      ->capture_default_str();
 }
 
 void add_walk(CLI::App& command, engine::WalkCommand& walk) {
@@ -53,7 +58,7 @@ void add_walk(CLI::App& command, engine::WalkCommand& walk) {
 
 CLI::App* add_limits(CLI::App& app, LimitsOptions& limits) {
   CLI::App* command = app.add_subcommand("limits", "Find how hard a push a robot takes");
-  add_world(*command, limits.robot, limits.plant, limits.seed);
+  add_world(*command, limits.world);
   command->get_option("--robot")->required();
   command->get_option("--seed")->description("First seed");
   command->add_option("--seeds", limits.seeds, "How many seeds all have to pass")
@@ -65,7 +70,7 @@ CLI::App* add_limits(CLI::App& app, LimitsOptions& limits) {
   list("--directions", limits.directions, "0 forward, 90 to the left: a,b,... or FROM:TO:STEP");
   list("--phases", limits.phases, "Shares of single support that have passed, and standing");
   list("--durations", limits.durations, "Of the push [s]");
-  list("--strategies", limits.strategies, "Of ankle, step and time; or none");
+  list("--strategies", limits.strategies, "Of ankle, hip, step and time; or none");
   command->add_option("--leg", limits.leg, "Which leg stands at the phase")
       ->check(CLI::IsMember({"left", "right", "either"}))
       ->capture_default_str();
@@ -141,11 +146,6 @@ int run_command_line(int argc, char** argv) {
       ->check(between(0.001, 86400.0))
       ->capture_default_str();
   add_walk(*run_app, run.walk);
-  run_app
-      ->add_option("--terrain", run.terrain,
-                   "flat, slope:DEG, slope:DEG:UPHILL_DEG, uneven:METRES, or a trial's terrain as "
-                   "JSON")
-      ->capture_default_str();
   run_app->add_flag("--json", run.json, "Print one JSON object");
 
   TrialOptions trial;
@@ -160,6 +160,13 @@ int run_command_line(int argc, char** argv) {
   RobotsOptions robots;
   CLI::App* robots_app = app.add_subcommand("robots", "List the robots");
   robots_app->add_flag("--json", robots.json, "Print one JSON object");
+
+  RobotsCheckOptions check;
+  CLI::App* check_app =
+      robots_app->add_subcommand("check", "Look into any URDF: legs, soles, pose, quirks");
+  check_app->add_option("urdf", check.urdf, "URDF of a biped")->required();
+  check_app->add_option("--write", check.write, "Folder to write a robot's description to");
+  check_app->add_flag("--json", check.json, "Print one JSON object");
 
   PaperOptions paper;
   CLI::App* paper_app =
@@ -190,6 +197,7 @@ int run_command_line(int argc, char** argv) {
 
   try {
     if (paper_app->parsed()) return paper_command(paper);
+    if (check_app->parsed()) return robots_check_command(check);
     const Folders folders = find_folders(robots_folder, web_folder);
     if (serve_app->parsed()) return serve_command(serve, folders);
     if (run_app->parsed()) return run_command(run, folders);

@@ -20,6 +20,7 @@ struct WorldOptions {
   std::uint64_t seed = 1;
   std::string state{name_of_state({})};
   std::int64_t control_delay_ms = server::control_delay_ms({});
+  std::string terrain = "flat";  ///< as parse_terrain() reads it
 };
 
 struct ServeOptions {
@@ -36,7 +37,6 @@ struct RunOptions {
   WorldOptions world;
   double seconds = 60.0;
   engine::WalkCommand walk;
-  std::string terrain = "flat";  ///< as parse_terrain() reads it
   bool json = false;
 };
 
@@ -45,6 +45,12 @@ struct TrialOptions {
 };
 
 struct RobotsOptions {
+  bool json = false;
+};
+
+struct RobotsCheckOptions {
+  std::string urdf;
+  std::string write;  ///< folder to write a description to; empty: none
   bool json = false;
 };
 
@@ -60,15 +66,13 @@ struct PaperOptions {
 };
 
 struct LimitsOptions {
-  std::string robot;
-  std::string plant = "bullet";
-  std::uint64_t seed = 1;  ///< the first of them
+  WorldOptions world;  ///< its seed is the first of them
   int seeds = 20;
   std::string directions = "0:315:45";  ///< list [degrees]
   std::string phases = "0.1,0.35,0.6,0.85";
   std::string leg = "left";
   std::string durations = "0.01";  ///< list [s]
-  std::string strategies = "ankle,step,time";
+  std::string strategies = "ankle,hip,step,time";
   std::string link;  ///< empty: the robot's torso
   engine::WalkCommand walk;
   double from = 0.1;           ///< lowest rung [m/s]
@@ -87,7 +91,7 @@ struct LimitsOptions {
 };
 
 /// The configuration; its robot is null, after a message on standard error, when there is none of
-/// that name.
+/// that name or the terrain cannot be.
 sim::SimulationConfig world_of(const WorldOptions& options, RobotLibrary& robots);
 
 /// Serves the dashboard, the API and the stream until SIGTERM or SIGINT.
@@ -98,6 +102,8 @@ int run_command(const RunOptions& options, const Folders& folders);
 int trial_command(const TrialOptions& options, const Folders& folders);
 /// Lists the robots.
 int robots_command(const RobotsOptions& options, const Folders& folders);
+/// Finds the biped in a URDF and tells what was found; exit_no for what cannot walk.
+int robots_check_command(const RobotsCheckOptions& options);
 /// The paper's experiments beside what it publishes and beside the ceilings.
 int paper_command(const PaperOptions& options);
 

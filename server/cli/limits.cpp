@@ -86,13 +86,13 @@ std::vector<std::uint64_t> read_seeds(const LimitsOptions& options) {
   // Beyond that JSON's numbers are not exact.
   constexpr std::uint64_t greatest = std::uint64_t{1} << 53;
   const auto count = static_cast<std::uint64_t>(options.seeds);
-  if (options.seed > greatest - (count - 1)) {
-    throw std::invalid_argument("--seed: " + std::to_string(options.seed) +
+  if (options.world.seed > greatest - (count - 1)) {
+    throw std::invalid_argument("--seed: " + std::to_string(options.world.seed) +
                                 " is not a number from 0 to " +
                                 std::to_string(greatest - (count - 1)) + " (2^53 less --seeds)");
   }
   std::vector<std::uint64_t> seeds(count);
-  std::iota(seeds.begin(), seeds.end(), options.seed);
+  std::iota(seeds.begin(), seeds.end(), options.world.seed);
   return seeds;
 }
 
@@ -105,11 +105,14 @@ void check_times(const LimitsOptions& options) {
   throw std::invalid_argument(text.str());
 }
 
-sim::LimitsSpec spec_of(const LimitsOptions& options, const sim::Robot& robot) {
+sim::LimitsSpec spec_of(const LimitsOptions& options, const sim::SimulationConfig& world) {
   check_times(options);
   sim::LimitsSpec spec;
-  spec.trial.robot = options.robot;
-  spec.trial.plant = plant_of(options.plant).value_or(sim::PlantKind::bullet);
+  const sim::Robot& robot = *world.robot;
+  spec.trial.robot = options.world.robot;
+  spec.trial.plant = world.plant;
+  spec.trial.senses = world.senses;
+  spec.trial.terrain = world.terrain;
   spec.trial.walk = options.walk;
   spec.trial.strategies = read_strategies_option(options.strategies);
   spec.trial.settle_s = options.settle_s;
@@ -173,12 +176,10 @@ std::string today() {
 
 int limits_command(const LimitsOptions& options, const Folders& folders) {
   RobotLibrary library(folders.robots);
-  const auto robot = library.find(options.robot);
-  if (robot == nullptr) {
-    std::cerr << "stagger: --robot " << library.unknown(options.robot) << '\n';
-    return exit_usage;
-  }
-  const sim::LimitsSpec spec = spec_of(options, *robot);
+  const sim::SimulationConfig world = world_of(options.world, library);
+  if (world.robot == nullptr) return exit_usage;
+  const auto& robot = world.robot;
+  const sim::LimitsSpec spec = spec_of(options, world);
   OutputFile out("--out", options.out);
   OutputFile markdown("--markdown", options.markdown);
 

@@ -1,49 +1,18 @@
 #include <chrono>
 #include <cmath>
 #include <iostream>
-#include <optional>
 
 #include "server/cli/cli.h"
 #include "server/cli/commands.h"
 #include "server/json/gait_json.h"
 #include "server/json/terrain_json.h"
-#include "sim/json_file.h"
 #include "sim/simulation.h"
 
 namespace stagger::server {
-namespace {
-
-/// Says what is wrong on standard error; then there is none.
-std::optional<sim::TerrainParameters> terrain_of(const std::string& text) {
-  sim::JsonErrors errors;
-  sim::TerrainParameters terrain;
-  try {
-    terrain = parse_terrain(text, errors);
-  } catch (const sim::JsonSyntaxError& error) {
-    std::cerr << "stagger: --terrain is \"" << text << "\": " << error.what() << '\n';
-    return std::nullopt;
-  }
-  for (const sim::JsonError& error : errors.list()) {
-    std::cerr << "stagger: --terrain " << error.pointer << ' ' << error.text << '\n';
-  }
-  if (!errors.empty()) return std::nullopt;
-  return terrain;
-}
-
-}  // namespace
-
 int run_command(const RunOptions& options, const Folders& folders) {
   RobotLibrary library(folders.robots);
-  sim::SimulationConfig config = world_of(options.world, library);
+  const sim::SimulationConfig config = world_of(options.world, library);
   if (config.robot == nullptr) return exit_usage;
-  const auto terrain = terrain_of(options.terrain);
-  if (!terrain) return exit_usage;
-  config.terrain = *terrain;
-  if (config.plant == sim::PlantKind::lipm && terrain->kind != sim::TerrainKind::flat) {
-    std::cerr << "stagger: --terrain is \"" << options.terrain
-              << "\"; allowed with --plant lipm: flat\n";
-    return exit_usage;
-  }
   sim::Simulation simulation(config);
   simulation.walk(options.walk);
 

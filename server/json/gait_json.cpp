@@ -67,7 +67,7 @@ std::optional<engine::Strategies> read_strategy_names(sim::JsonReader& reader,
         std::find_if(strategies.begin(), strategies.end(),
                      [&wanted](const Strategy& strategy) { return strategy.name == wanted; });
     if (found == strategies.end()) {
-      reader.refuse(name, "names \"" + wanted + R"("; allowed: "ankle", "step", "time")");
+      reader.refuse(name, "names \"" + wanted + R"("; allowed: "ankle", "hip", "step", "time")");
     } else if (chosen.*found->member) {
       reader.refuse(name, "names \"" + wanted + "\" twice");
     } else {

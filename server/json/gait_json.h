@@ -17,13 +17,13 @@ namespace stagger::server {
 engine::WalkCommand read_walk(sim::JsonReader& reader);
 Json walk_json(const engine::WalkCommand& walk);
 
-/// A strategy that users may switch. The engine's hip strategy drives the point mass's flywheel
-/// only: it joins the list when a robot can do something with it.
+/// A strategy that users may switch.
 struct Strategy {
   std::string_view name;
   bool engine::Strategies::*member;
 };
-inline constexpr std::array<Strategy, 3> strategies{{{"ankle", &engine::Strategies::ankle},
+inline constexpr std::array<Strategy, 4> strategies{{{"ankle", &engine::Strategies::ankle},
+                                                     {"hip", &engine::Strategies::hip},
                                                      {"step", &engine::Strategies::step},
                                                      {"time", &engine::Strategies::time}}};
 
@@ -33,12 +33,12 @@ struct StrategyPatch {
   engine::Strategies applied_to(engine::Strategies present) const;
 };
 
-/// {"ankle":true,"step":false,"time":true}, each of them optional.
+/// {"ankle":true,"hip":true,"step":false,"time":true}, each of them optional.
 StrategyPatch read_strategies(sim::JsonReader& reader);
 Json strategies_json(const engine::Strategies& present);
 
-/// The field `name`, ["ankle","step","time"]: those that may act. Nothing when the field is left
-/// out.
+/// The field `name`, ["ankle","hip","step","time"]: those that may act. Nothing when the field is
+/// left out.
 std::optional<engine::Strategies> read_strategy_names(sim::JsonReader& reader,
                                                       std::string_view name);
 Json strategy_names_json(const engine::Strategies& present);

@@ -150,6 +150,7 @@ StrategyEffect LiveSession::change_strategies(const StrategyChange& change,
     world_->set_strategies(strategies_);
     announce(now(), "strategies", source,
              {{"ankle", strategies_.ankle ? 1.0 : 0.0},
+              {"hip", strategies_.hip ? 1.0 : 0.0},
               {"step", strategies_.step ? 1.0 : 0.0},
               {"time", strategies_.time ? 1.0 : 0.0}});
     return StrategyEffect{now(), strategies_};

@@ -38,9 +38,8 @@ WholeBodyController::WholeBodyController(const Robot& robot, const WholeBodyGain
     foot.corners = {foot.sole * Vec3(x, y, 0.0), foot.sole * Vec3(x, -y, 0.0),
                     foot.sole * Vec3(-x, y, 0.0), foot.sole * Vec3(-x, -y, 0.0)};
   }
-  const LinkPlace& torso = robot.model.links.at(robot.description.torso);
-  torso_body_ = torso.body;
-  torso_in_body_ = torso.pose.linear();
+  torso_body_ = robot.model.links.at(robot.description.torso).body;
+  torso_in_body_ = robot.torso_in_body();
   jacobian_.resize(6, nv_);
   torque_ = Eigen::VectorXd::Zero(nv_ - 6);
 }

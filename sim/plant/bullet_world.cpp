@@ -5,6 +5,7 @@
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/CollisionShapes/btCylinderShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <BulletDynamics/Featherstone/btMultiBody.h>
@@ -28,6 +29,8 @@ namespace {
 
 // Rounding of shapes that Bullet's general convex algorithm sees; boxes on the ground are exact.
 constexpr double collision_margin = 0.001;  // [m]
+// Bullet rounds a hull outwards: the least that its general convex algorithm is content with.
+constexpr double hull_margin = 1e-4;  // [m]
 // Bodies without geometry still need a collider: Bullet 3.24 puts a body's joint limits into no
 // island, and so ignores them, when it has none. These collide with nothing.
 constexpr double stand_in_radius = 0.01;  // [m]
@@ -85,6 +88,14 @@ std::unique_ptr<btCollisionShape> make_shape(const Shape& shape) {
       break;
     case Shape::Kind::sphere:
       return std::make_unique<btSphereShape>(shape.size.x());  // its margin is its radius
+    case Shape::Kind::hull: {
+      auto hull = std::make_unique<btConvexHullShape>();
+      for (const Vec3& point : shape.points) hull->addPoint(to_bullet(point), false);
+      hull->recalcLocalAabb();
+      // Bullet adds the margin outside a hull; what is thin stays thin.
+      hull->setMargin(hull_margin);
+      return hull;
+    }
   }
   result->setMargin(std::min(collision_margin, 0.1 * shape.size.head(2).minCoeff()));
   return result;

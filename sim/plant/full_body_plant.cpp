@@ -5,7 +5,7 @@
 
 #include "sim/robot/dynamic_scale.h"
 #include "sim/robot/posture.h"
-#include "sim/robot/standing_state.h"
+#include "sim/robot/slope_state.h"
 
 namespace stagger::sim {
 namespace {
@@ -20,7 +20,7 @@ constexpr double limp_damping = 2.0;
 /// The posture that it walks in, or the one nearest to it whose soles lie on the slope.
 RobotState start_state(const Robot& robot, const Terrain& terrain) {
   if (terrain.normal() == Vec3::UnitZ()) return walking_state(robot);
-  return standing_state(robot, terrain.normal());
+  return slope_state(robot, terrain.normal());
 }
 
 const SenseParameters& valid(const SenseParameters& senses) {
@@ -177,8 +177,8 @@ std::string FullBodyPlant::fall_reason() const {
   if (height < fall_height_share * robot_->description.walk.com_height_m) {
     return "the centre of mass is too low";
   }
-  const LinkPlace& torso = robot_->model.links.at(robot_->description.torso);
-  const Vec3 up = true_body().rotation(torso.body) * torso.pose.linear().col(2);
+  const int torso = robot_->model.links.at(robot_->description.torso).body;
+  const Vec3 up = true_body().rotation(torso) * robot_->torso_in_body().col(2);
   if (std::acos(std::clamp(up.z(), -1.0, 1.0)) > fall_tilt) return "the torso leans too far";
   for (const BulletWorld::Contact& contact : world_.contacts()) {
     if (!contact.with_ground()) continue;

@@ -6,15 +6,31 @@
 namespace stagger::sim {
 namespace {
 
+const Range angle = Range::between(-6.3, 6.3, "rad");
+
 FootDescription read_foot(JsonReader& in) {
   FootDescription foot;
   foot.link = in.string("link");
   in.object("sole", [&](JsonReader& sole) {
     foot.sole.position = sole.vec3("position", Range::between(-1.0, 1.0, "m"));
+    foot.sole.rpy = sole.vec3_or("rpy", engine::Vec3::Zero(), angle);
     foot.sole.length = sole.number("length", Range::between(0.02, 1.0, "m"));
     foot.sole.width = sole.number("width", Range::between(0.02, 1.0, "m"));
   });
   return foot;
+}
+
+std::map<std::string, MotorLimits> read_motors(JsonReader& in) {
+  std::map<std::string, MotorLimits> motors;
+  if (in.has("effort_nm")) {
+    const auto efforts = in.numbers("effort_nm", Range::more_than_up_to(0.0, 1e4, "N m"));
+    for (const auto& [joint, effort] : efforts) motors[joint].effort = effort;
+  }
+  if (in.has("velocity_rad_s")) {
+    const auto speeds = in.numbers("velocity_rad_s", Range::more_than_up_to(0.0, 1e3, "rad/s"));
+    for (const auto& [joint, speed] : speeds) motors[joint].velocity = speed;
+  }
+  return motors;
 }
 
 GivenWalk read_walk(JsonReader& in) {
@@ -47,17 +63,29 @@ WalkDescription GivenWalk::over(const WalkDescription& defaults) const {
   return walk;
 }
 
+Eigen::Matrix3d rotation_of(const engine::Vec3& rpy) {
+  if (rpy.isZero(0.0)) return Eigen::Matrix3d::Identity();
+  return (Eigen::AngleAxisd(rpy.z(), engine::Vec3::UnitZ()) *
+          Eigen::AngleAxisd(rpy.y(), engine::Vec3::UnitY()) *
+          Eigen::AngleAxisd(rpy.x(), engine::Vec3::UnitX()))
+      .toRotationMatrix();
+}
+
 BipedDescription read_biped_description(JsonReader& in) {
   BipedDescription biped;
   biped.version = static_cast<int>(in.integer("version", Range::between(1, 1)));
   biped.urdf = in.string("urdf");
   biped.base = in.string("base");
   biped.torso = in.string("torso");
+  biped.torso_rpy = in.vec3_or("torso_rpy", engine::Vec3::Zero(), angle);
   in.object("feet", [&](JsonReader& feet) {
     feet.object("left", [&](JsonReader& foot) { biped.feet[0] = read_foot(foot); });
     feet.object("right", [&](JsonReader& foot) { biped.feet[1] = read_foot(foot); });
   });
-  biped.nominal_pose = in.numbers("nominal_pose", Range::between(-6.3, 6.3, "rad"));
+  biped.nominal_pose = in.numbers("nominal_pose", angle);
+  if (in.has("locked")) biped.locked = in.numbers("locked", angle);
+  in.optional_object("motors", [&](JsonReader& motors) { biped.motors = read_motors(motors); });
+  biped.mend = in.boolean_or("mend", false);
   in.optional_object("walk", [&](JsonReader& walk) { biped.given_walk = read_walk(walk); });
   return biped;
 }

@@ -7,15 +7,17 @@
 #include <string>
 
 #include "engine/types.h"
+#include "sim/robot/urdf_import.h"
 
 namespace stagger::sim {
 
 class JsonReader;
 
-/// The rectangle that a foot stands on, in the frame of the foot's link: its plane is normal to the
-/// link's z axis, its length runs along the link's x axis.
+/// The rectangle that a foot stands on, in the frame of the foot's link: its length runs along the
+/// sole's x axis, to the toes, and its plane is normal to the sole's z axis, which points up.
 struct SoleDescription {
   engine::Vec3 position = engine::Vec3::Zero();  ///< centre [m]
+  engine::Vec3 rpy = engine::Vec3::Zero();       ///< of the sole's axes, as in a URDF [rad]
   double length = 0.0;                           ///< [m]
   double width = 0.0;                            ///< [m]
 };
@@ -60,11 +62,18 @@ struct BipedDescription {
   std::string urdf;   ///< file beside robot.json
   std::string base;   ///< link whose yaw is the robot's heading
   std::string torso;  ///< link that is kept upright and that pushes act on by default
+  engine::Vec3 torso_rpy = engine::Vec3::Zero();  ///< of its axes forward, left, up, in its frame
   engine::PerFoot<FootDescription> feet;
   std::map<std::string, double> nominal_pose;  ///< joint -> angle [rad]; joints not named are at 0
+  std::map<std::string, double> locked;        ///< joint -> where it is held for good [rad]
+  std::map<std::string, MotorLimits> motors;   ///< joint -> what replaces the URDF's limits
+  bool mend = false;                           ///< the URDF is imported with ImportMode::mend
   GivenWalk given_walk;
   WalkDescription walk;  ///< complete: load_robot() fills it
 };
+
+/// Rotation of roll, pitch, yaw about fixed axes, as a URDF means it.
+Eigen::Matrix3d rotation_of(const engine::Vec3& rpy);
 
 /// Reads robot.json. Links and joints are only names here: load_robot() checks them against the
 /// URDF. Throws std::runtime_error with every error found: file, line, field, value, allowed range.

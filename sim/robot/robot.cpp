@@ -148,7 +148,14 @@ int Robot::foot_body(Side side) const {
 
 Eigen::Isometry3d Robot::sole_in_body(Side side) const {
   const FootDescription& foot = description.feet[index(side)];
-  return model.links.at(foot.link).pose * Eigen::Translation3d(foot.sole.position);
+  Eigen::Isometry3d sole =
+      model.links.at(foot.link).pose * Eigen::Translation3d(foot.sole.position);
+  sole.linear() *= rotation_of(foot.sole.rpy);
+  return sole;
+}
+
+Eigen::Matrix3d Robot::torso_in_body() const {
+  return model.links.at(description.torso).pose.linear() * rotation_of(description.torso_rpy);
 }
 
 std::shared_ptr<const Robot> load_robot(const std::filesystem::path& folder) {
@@ -162,7 +169,12 @@ std::shared_ptr<const Robot> load_robot(const std::filesystem::path& folder) {
       in.refuse("urdf", "is \"" + urdf.string() + "\"; allowed: a file beside robot.json");
     }
     if (!in.errors().empty()) return;
-    robot->model = import_urdf_file(folder / urdf);
+    const BipedDescription& biped = robot->description;
+    ImportOptions options;
+    options.mode = biped.mend ? ImportMode::mend : ImportMode::strict;
+    options.locked = biped.locked;
+    options.motors = biped.motors;
+    robot->model = import_urdf_file(folder / urdf, options);
     if (robot->model.joint_count() > max_joints) {
       in.refuse("urdf", "has " + std::to_string(robot->model.joint_count()) +
                             " moving joints; allowed: at most " + std::to_string(max_joints));
@@ -201,6 +213,12 @@ RobotState standing_state(const Robot& robot, const Eigen::VectorXd& q) {
   };
   const Vec3 up = sole(Side::left).linear().col(2);
   state.base_orientation = Eigen::Quaterniond::FromTwoVectors(up, Vec3::UnitZ());
+  const Vec3 toes = sole(Side::left).linear().col(0);
+  const double yaw = std::atan2(toes.y(), toes.x());
+  // A base that looks ahead already is not turned at all, not even by a rounding error.
+  if (yaw != 0.0) {
+    state.base_orientation = Eigen::AngleAxisd(-yaw, Vec3::UnitZ()) * state.base_orientation;
+  }
   state.base_position = -0.5 * (sole(Side::left).translation() + sole(Side::right).translation());
   return state;
 }

@@ -22,6 +22,8 @@ struct Robot {
   int foot_body(engine::Side side) const;
   /// Frame of the sole in that body: origin at the sole's centre, x along its length, z up.
   Eigen::Isometry3d sole_in_body(engine::Side side) const;
+  /// Axes of the torso (x forward, z up when it is upright) in the frame of its body.
+  Eigen::Matrix3d torso_in_body() const;
 };
 
 /// Reads folder/robot.json and the URDF that it names. Throws std::runtime_error with a message
@@ -32,7 +34,7 @@ std::shared_ptr<const Robot> load_robot(const std::filesystem::path& folder);
 std::vector<std::string> list_robots(const std::filesystem::path& robots);
 
 /// At rest with these joint angles: soles on the ground (z = 0), their mid-point at the world's
-/// origin, heading along x. The base is turned so that the left sole is flat.
+/// origin, the left one pointing along x. The base is turned so that the left sole is flat.
 RobotState standing_state(const Robot& robot, const Eigen::VectorXd& q);
 
 /// The same in the nominal pose.

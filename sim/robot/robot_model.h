@@ -17,10 +17,12 @@ using engine::Vec3;
 
 /// One convex piece of a body's collision geometry.
 struct Shape {
-  enum class Kind : std::uint8_t { box, cylinder, sphere };
+  enum class Kind : std::uint8_t { box, cylinder, sphere, hull };
   Kind kind = Kind::box;
-  /// box: full edges; cylinder: (radius, length along z, unused); sphere: (radius, ...) [m]
+  /// box: full edges; cylinder: (radius, length along z, unused); sphere: (radius, ...);
+  /// hull: edges of the box around it [m]
   Vec3 size = Vec3::Zero();
+  std::vector<Vec3> points = {};  ///< hull: the points whose convex hull it is, in its frame [m]
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< in the body's frame
 };
 

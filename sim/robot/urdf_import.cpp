@@ -1,50 +1,119 @@
 #include "sim/robot/urdf_import.h"
 
-#include <urdf_parser/urdf_parser.h>
-
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <set>
 #include <sstream>
 #include <stdexcept>
+
+#include "sim/robot/inertia.h"
+#include "sim/robot/urdf_shapes.h"
+#include "sim/robot/urdf_text.h"
 
 namespace stagger::sim {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Some CAD exports write masses like this for links that only mark a place [kg].
+constexpr double marker_mass = 1e-4;
+/// Names that a quirk of many links or joints tells.
+constexpr std::size_t most_names = 3;
 
-Eigen::Isometry3d to_isometry(const urdf::Pose& pose) {
-  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  const urdf::Rotation& r = pose.rotation;
-  result.linear() = Eigen::Quaterniond(r.w, r.x, r.y, r.z).normalized().toRotationMatrix();
-  result.translation() = Vec3(pose.position.x, pose.position.y, pose.position.z);
-  return result;
+const char* type_name(const urdf::Joint& joint) {
+  switch (joint.type) {
+    case urdf::Joint::PRISMATIC:
+      return "prismatic";
+    case urdf::Joint::PLANAR:
+      return "planar";
+    case urdf::Joint::FLOATING:
+      return "floating";
+    default:
+      return "unknown";
+  }
 }
 
-/// Steiner's theorem: inertia about a point displaced by d from the centre of mass.
-Eigen::Matrix3d displaced(const Eigen::Matrix3d& inertia, double mass, const Vec3& d) {
-  return inertia + mass * (d.squaredNorm() * Eigen::Matrix3d::Identity() - d * d.transpose());
+Eigen::Matrix3d own_inertia(const urdf::Inertial& given) {
+  Eigen::Matrix3d own;
+  own << given.ixx, given.ixy, given.ixz, given.ixy, given.iyy, given.iyz, given.ixz, given.iyz,
+      given.izz;
+  return own;
 }
+
+/// Quirks that links or joints have in common, told once with their names.
+class QuirkList {
+ public:
+  void add(const std::string& kind, const std::string& name, std::string what, std::string answer) {
+    for (Group& group : groups_) {
+      if (group.kind != kind || group.what != what || group.answer != answer) continue;
+      if (group.names.back() != name) group.names.push_back(name);
+      return;
+    }
+    groups_.push_back({kind, {name}, std::move(what), std::move(answer)});
+  }
+
+  Quirks list() const {
+    Quirks result;
+    for (const Group& group : groups_) {
+      std::string where = group.kind + (group.names.size() > 1 ? "s " : " ");
+      for (std::size_t i = 0; i < group.names.size() && i < most_names; ++i) {
+        where += (i == 0 ? "'" : ", '") + group.names[i] + "'";
+      }
+      if (group.names.size() > most_names) {
+        where += " and " + std::to_string(group.names.size() - most_names) + " more";
+      }
+      result.push_back({std::move(where), group.what, group.answer});
+    }
+    return result;
+  }
+
+ private:
+  struct Group {
+    std::string kind;
+    std::vector<std::string> names;
+    std::string what;
+    std::string answer;
+  };
+  std::vector<Group> groups_;
+};
 
 class Importer {
  public:
-  Importer(const urdf::ModelInterface& urdf, const std::string& origin)
-      : urdf_(urdf), origin_(origin) {}
+  Importer(const urdf::ModelInterface& urdf, const std::string& origin,
+           const ImportOptions& options, ImportReport& report)
+      : urdf_(urdf), origin_(origin), options_(options), report_(report) {}
 
   RobotModel run() {
+    check_names();
     model_.name = urdf_.getName();
     const urdf::LinkConstSharedPtr root = urdf_.getRoot();
     model_.bodies.emplace_back().name = root->name;
+    at_zero_.emplace_back(Eigen::Matrix3d::Identity());
     add_link(*root, 0, Eigen::Isometry3d::Identity());
-    for (const Body& body : model_.bodies) check_mass(body);
+    if (options_.mode == ImportMode::strict) {
+      for (const Body& body : model_.bodies) check_mass(body);
+    } else if (!(model_.mass() > 0.0)) {
+      fail("no link has a mass; allowed: a robot that weighs something, given in <inertial>");
+    }
+    report_.quirks = quirks_.list();
+    if (options_.mode != ImportMode::strict) report_.mended = mend_masses(model_);
     return std::move(model_);
   }
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
     throw std::runtime_error(origin_ + ": " + what);
+  }
+
+  void check_names() const {
+    const auto check = [&](const std::string& name, const char* what) {
+      if (urdf_.joints_.contains(name)) return;
+      fail("has no joint '" + name + "', which is to be " + what);
+    };
+    for (const auto& [name, angle] : options_.locked) check(name, "locked");
+    for (const auto& [name, limits] : options_.motors) check(name, "given other limits");
   }
 
   // Adds the link to a body and goes on to its children. `pose` is the link in the body's frame.
@@ -58,98 +127,82 @@ class Importer {
     LinkPlace place{index, pose, Vec3::Zero(), 0.0};
     if (link.inertial) {
       const urdf::Inertial& given = *link.inertial;
-      Eigen::Matrix3d own;
-      own << given.ixx, given.ixy, given.ixz, given.ixy, given.iyy, given.iyz, given.ixz, given.iyz,
-          given.izz;
-      if (!std::isfinite(given.mass) || given.mass < 0.0 || !own.allFinite()) {
+      const Eigen::Matrix3d own = own_inertia(given);
+      const Eigen::Isometry3d in_link = to_isometry(given.origin);
+      if (!std::isfinite(given.mass) || given.mass < 0.0 || !own.allFinite() ||
+          !in_link.matrix().allFinite()) {
         std::ostringstream text;
         text << "link '" << link.name << "': mass is " << given.mass
              << " kg; allowed: a finite mass of at least 0 kg and a finite inertia";
         fail(text.str());
       }
-      const Eigen::Isometry3d in_link = to_isometry(given.origin);
+      tell_inertial(link.name, given.mass, own);
       place.com = in_link.translation();
       place.mass = given.mass;
       const Eigen::Isometry3d in_body = pose * in_link;
-      merge(model_.bodies[index], given.mass, in_body.translation(),
-            in_body.linear() * own * in_body.linear().transpose());
+      add_mass(model_.bodies[index], given.mass, in_body.translation(),
+               in_body.linear() * own * in_body.linear().transpose());
+    } else {
+      quirks_.add("link", link.name, "no <inertial>", "taken as without mass");
     }
     model_.links[link.name] = place;
   }
 
-  static void merge(Body& body, double mass, const Vec3& com, const Eigen::Matrix3d& inertia) {
-    const double sum = body.mass + mass;
-    const Vec3 joint_com =
-        sum > 0.0 ? Vec3((body.mass * body.com + mass * com) / sum) : Vec3::Zero();
-    body.inertia = displaced(body.inertia, body.mass, body.com - joint_com) +
-                   displaced(inertia, mass, com - joint_com);
-    body.com = joint_com;
-    body.mass = sum;
+  void tell_inertial(const std::string& link, double mass, const Eigen::Matrix3d& own) {
+    if (mass < marker_mass) {
+      quirks_.add("link", link, mass > 0.0 ? "weighs less than 0.1 g" : "<inertial> without mass",
+                  "adds next to nothing to what it is fixed to");
+    } else if (own.isZero(0.0)) {
+      quirks_.add("link", link, "an inertia of zero", "taken as a point of its mass");
+    } else if (!inertia_fault(own).empty()) {
+      quirks_.add("link", link, "an inertia that no body has (triangle inequality)",
+                  "kept: what counts is its sum with all that is fixed to it");
+    }
   }
 
   void add_shape(const urdf::Link& link, const urdf::Collision& collision, int body,
                  const Eigen::Isometry3d& pose) {
-    if (!collision.geometry) return;
-    Shape shape;
-    shape.pose = pose * to_isometry(collision.origin);
-    const urdf::Geometry& geometry = *collision.geometry;
-    if (geometry.type == urdf::Geometry::BOX) {
-      const urdf::Vector3& dim = static_cast<const urdf::Box&>(geometry).dim;
-      shape.kind = Shape::Kind::box;
-      shape.size = Vec3(dim.x, dim.y, dim.z);
-    } else if (geometry.type == urdf::Geometry::CYLINDER) {
-      const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
-      shape.kind = Shape::Kind::cylinder;
-      shape.size = Vec3(cylinder.radius, cylinder.length, 0.0);
-    } else if (geometry.type == urdf::Geometry::SPHERE) {
-      shape.kind = Shape::Kind::sphere;
-      shape.size = Vec3(static_cast<const urdf::Sphere&>(geometry).radius, 0.0, 0.0);
-    } else {
-      fail("link '" + link.name +
-           "': mesh collision not supported yet; allowed: box, cylinder, sphere");
+    ShapeResult result;
+    try {
+      result = read_shape(collision, at_zero_[body] * pose.linear(), options_);
+    } catch (const std::runtime_error& error) {
+      fail("link '" + link.name + "': " + error.what());
     }
-    check_size(link, shape);
-    model_.bodies[body].shapes.push_back(shape);
-  }
-
-  void check_size(const urdf::Link& link, const Shape& shape) const {
-    const int sizes = shape.kind == Shape::Kind::box        ? 3
-                      : shape.kind == Shape::Kind::cylinder ? 2
-                                                            : 1;
-    for (int i = 0; i < sizes; ++i) {
-      if (!(shape.size[i] > 0.0) || !std::isfinite(shape.size[i])) {
-        std::ostringstream text;
-        text << "link '" << link.name << "': a size of its collision geometry is " << shape.size[i]
-             << " m; allowed: more than 0 m";
-        fail(text.str());
-      }
+    if (!result.what.empty()) quirks_.add("link", link.name, result.what, result.answer);
+    if (!result.mesh.empty()) report_.meshes[result.uri] = result.mesh;
+    if (!result.shape) return;
+    result.shape->pose = pose * result.shape->pose;
+    if (!result.shape->pose.matrix().allFinite()) {
+      fail("link '" + link.name + "': its collision geometry has a place that is not finite");
     }
+    model_.bodies[body].shapes.push_back(std::move(*result.shape));
   }
 
   void add_joint(const urdf::Joint& joint, int body, const Eigen::Isometry3d& parent_pose) {
     const urdf::LinkConstSharedPtr child = urdf_.getLink(joint.child_link_name);
     const Eigen::Isometry3d placement =
         parent_pose * to_isometry(joint.parent_to_joint_origin_transform);
-    switch (joint.type) {
-      case urdf::Joint::FIXED:
-        add_link(*child, body, placement);
-        return;
-      case urdf::Joint::REVOLUTE:
-      case urdf::Joint::CONTINUOUS:
-        break;
-      case urdf::Joint::PRISMATIC:
-        refuse_type(joint, "prismatic");
-      case urdf::Joint::PLANAR:
-        refuse_type(joint, "planar");
-      case urdf::Joint::FLOATING:
-        refuse_type(joint, "floating");
-      default:
-        refuse_type(joint, "unknown");
+    if (!placement.matrix().allFinite()) {
+      fail("joint '" + joint.name + "': its origin is not finite");
     }
-    if (joint.mimic) {
-      fail("joint '" + joint.name + "' mimics '" + joint.mimic->joint_name +
-           "'; allowed: joints that move on their own");
+    if (joint.type == urdf::Joint::FIXED || is_float(joint, body)) {
+      add_link(*child, body, placement);
+      return;
     }
+    if (const auto locked = options_.locked.find(joint.name); locked != options_.locked.end()) {
+      add_link(*child, body, placement * displacement(joint, locked->second));
+      return;
+    }
+    if (joint.type != urdf::Joint::REVOLUTE && joint.type != urdf::Joint::CONTINUOUS) {
+      if (options_.mode != ImportMode::survey) {
+        fail("joint '" + joint.name + "' has type " + type_name(joint) +
+             "; allowed: revolute, continuous, fixed");
+      }
+      report_.held[joint.name] = {type_name(joint), body};
+      add_link(*child, body, placement);
+      return;
+    }
+    check_mimic(joint);
     Body carried;
     carried.name = child->name;
     carried.parent = body;
@@ -158,17 +211,44 @@ class Importer {
     carried.axis = unit_axis(joint);
     read_limits(joint, carried);
     const auto index = static_cast<int>(model_.bodies.size());
+    at_zero_.emplace_back(at_zero_[body] * placement.linear());
     model_.bodies.push_back(std::move(carried));
     add_link(*child, index, Eigen::Isometry3d::Identity());
   }
 
-  [[noreturn]] void refuse_type(const urdf::Joint& joint, const std::string& type) const {
-    fail("joint '" + joint.name + "' has type " + type + "; allowed: revolute, continuous, fixed");
+  /// A joint that lets the whole robot float, as the base does anyway?
+  bool is_float(const urdf::Joint& joint, int body) {
+    if (joint.type != urdf::Joint::FLOATING || body != 0 || model_.bodies[0].mass > 0.0 ||
+        !model_.bodies[0].shapes.empty()) {
+      return false;
+    }
+    quirks_.add("joint", joint.name, "floats below a root without mass",
+                "taken as fixed: the base floats anyway");
+    return true;
+  }
+
+  Eigen::Isometry3d displacement(const urdf::Joint& joint, double value) const {
+    Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+    if (joint.type == urdf::Joint::PRISMATIC) {
+      result.translation() = value * unit_axis(joint);
+    } else if (joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS) {
+      result.linear() = Eigen::AngleAxisd(value, unit_axis(joint)).toRotationMatrix();
+    }
+    return result;
+  }
+
+  void check_mimic(const urdf::Joint& joint) {
+    if (!joint.mimic) return;
+    if (options_.mode != ImportMode::survey) {
+      fail("joint '" + joint.name + "' mimics '" + joint.mimic->joint_name +
+           "'; allowed: joints that move on their own, and locked ones");
+    }
+    report_.mimics[joint.name] = joint.mimic->joint_name;
   }
 
   Vec3 unit_axis(const urdf::Joint& joint) const {
     const Vec3 axis(joint.axis.x, joint.axis.y, joint.axis.z);
-    if (!axis.allFinite() || axis.norm() < 1e-6) {
+    if (!axis.allFinite() || !(axis.norm() >= 1e-6) || !std::isfinite(axis.norm())) {
       std::ostringstream text;
       text << "joint '" << joint.name << "': axis is [" << axis.transpose()
            << "]; allowed: a vector that is not zero";
@@ -177,12 +257,19 @@ class Importer {
     return axis.normalized();
   }
 
-  void read_limits(const urdf::Joint& joint, Body& body) const {
+  void read_limits(const urdf::Joint& joint, Body& body) {
     body.lower = -infinity;
     body.upper = infinity;
     body.effort = infinity;
     body.velocity = infinity;
-    if (!joint.limits) return;  // continuous joints need none
+    if (joint.limits) take_limits(joint, body);  // continuous joints need none
+    if (const auto motor = options_.motors.find(joint.name); motor != options_.motors.end()) {
+      body.effort = motor->second.effort.value_or(body.effort);
+      body.velocity = motor->second.velocity.value_or(body.velocity);
+    }
+  }
+
+  void take_limits(const urdf::Joint& joint, Body& body) {
     const urdf::JointLimits& given = *joint.limits;
     const bool finite = std::isfinite(given.lower) && std::isfinite(given.upper) &&
                         std::isfinite(given.effort) && std::isfinite(given.velocity);
@@ -196,6 +283,9 @@ class Importer {
     if (joint.type == urdf::Joint::REVOLUTE && given.lower < given.upper) {
       body.lower = given.lower;
       body.upper = given.upper;
+    } else if (joint.type == urdf::Joint::REVOLUTE) {
+      quirks_.add("joint", joint.name, "no range: lower is not less than upper",
+                  "taken as without bounds");
     }
     body.effort = given.effort;
     // A joint that may not move at all would be a fixed joint: 0 stands for "not known".
@@ -222,25 +312,38 @@ class Importer {
 
   const urdf::ModelInterface& urdf_;
   const std::string& origin_;
+  const ImportOptions& options_;
+  ImportReport& report_;
+  QuirkList quirks_;
   RobotModel model_;
+  std::vector<Eigen::Matrix3d> at_zero_;  // orientation of every body with all joints at zero
 };
 
 }  // namespace
 
-RobotModel import_urdf(const std::string& xml, const std::string& origin) {
-  const urdf::ModelInterfaceSharedPtr urdf = urdf::parseURDF(xml);
-  if (!urdf || !urdf->getRoot()) {
-    throw std::runtime_error(origin +
-                             ": is no URDF that urdfdom can read (its messages are above)");
+RobotModel import_urdf(const std::string& xml, const std::string& origin,
+                       const ImportOptions& options, ImportReport* report) {
+  std::vector<std::string> warnings;
+  const urdf::ModelInterfaceSharedPtr urdf = parse_urdf(xml, origin, &warnings);
+  ImportReport unread;
+  ImportReport& told = report != nullptr ? *report : unread;
+  RobotModel model = Importer(*urdf, origin, options, told).run();
+  for (const std::string& warning : warnings) {
+    told.quirks.push_back({"file", warning, "nothing that matters here"});
   }
-  return Importer(*urdf, origin).run();
+  return model;
 }
 
-RobotModel import_urdf_file(const std::filesystem::path& file) {
+RobotModel import_urdf_file(const std::filesystem::path& file, ImportOptions options,
+                            ImportReport* report) {
+  std::error_code ignored;
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw std::runtime_error(file.string() + ": cannot be opened");
+  if (!in || std::filesystem::is_directory(file, ignored)) {
+    throw std::runtime_error(file.string() + ": cannot be opened");
+  }
   const std::string xml{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  return import_urdf(xml, file.string());
+  options.folder = file.parent_path();
+  return import_urdf(xml, file.string(), options, report);
 }
 
 }  // namespace stagger::sim

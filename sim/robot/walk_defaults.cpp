@@ -45,7 +45,8 @@ WalkDescription walk_defaults(const BipedProportions& p) {
   const double time = std::sqrt(p.com_height);
   WalkDescription walk;
   walk.com_height_m = p.com_height;
-  walk.stance_width_m = p.stance_width;
+  const double least_width = p.sole_width + sole_gap * p.leg_length;
+  walk.stance_width_m = std::max(p.stance_width, least_width);
   walk.swing_height_m = swing_height * p.leg_length;
   walk.t_ss_s = t_ss * time;
   walk.t_ds_s = t_ds * time;
@@ -54,8 +55,8 @@ WalkDescription walk_defaults(const BipedProportions& p) {
   const double spread =
       std::sqrt(std::max(p.leg_length * p.leg_length - p.hip_height * p.hip_height, 0.0));
   walk.max_step_length_m = std::min(longest_step * p.leg_length, 2.0 * spread);
-  walk.min_step_width_m = std::min(p.sole_width + sole_gap * p.leg_length, p.stance_width);
-  walk.max_step_width_m = p.stance_width + widest_extra * p.leg_length;
+  walk.min_step_width_m = least_width;
+  walk.max_step_width_m = walk.stance_width_m + widest_extra * p.leg_length;
   return walk;
 }
 

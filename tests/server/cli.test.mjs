@@ -4,7 +4,7 @@ import fs from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import { test } from 'node:test';
-import { command, interrupted } from './support.mjs';
+import { command, interrupted, root } from './support.mjs';
 
 const push = { impulse_ns: 5, direction_deg: 90, trigger: { phase: 'single_support', leg: 'left' } };
 const spec = { robot: 'kasaei', plant: 'lipm', settle_s: 2, observe_s: 2, push };
@@ -210,4 +210,43 @@ test('robots are listed', async () => {
   const { items } = JSON.parse((await command(['robots', '--json'])).stdout);
   assert.ok(items.some((robot) => robot.name === 'kasaei' && robot.joints.length === 12));
   assert.equal((await command(['robots', '--robots-dir', '/no/such/folder'])).stdout, '');
+});
+
+test('robots check tells what a URDF is, and makes a robot of it', async () => {
+  const file = (name) => path.join(root, 'tests/data/robots', `${name}.urdf`);
+  const kasaei = path.join(root, 'robots/kasaei/robot.urdf');
+  const found = await command(['robots', 'check', kasaei, '--json']);
+  assert.equal(found.code, 0, found.stderr);
+  const result = JSON.parse(found.stdout);
+  assert.equal(result.walks, true);
+  assert.ok(Math.abs(result.figures.mass_kg - 30) < 1e-9);
+  assert.deepEqual(result.legs.left.joints.map((joint) => joint.role),
+    ['hip_yaw', 'hip_roll', 'hip_pitch', 'knee', 'ankle_pitch', 'ankle_roll']);
+
+  for (const [name, reason] of [['point_feet', /point or a line/], ['four_joints', /has 4 joints/]]) {
+    const { code, stdout, stderr } = await command(['robots', 'check', file(name), '--json']);
+    assert.equal(code, 1, name);
+    assert.match(stderr, reason);
+    assert.equal(JSON.parse(stdout).walks, false);
+  }
+  assert.equal((await command(['robots', 'check', '/no/such.urdf'])).code, 2);
+  assert.equal((await command(['robots', 'check', path.join(root, 'README.md')])).code, 2);
+  assert.equal((await command(['robots', 'check'])).code, 2);
+
+  const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'stagger-'));
+  try {
+    const robot = path.join(folder, 'made');
+    const write = ['robots', 'check', file('waist_and_arms'), '--write', robot];
+    const first = await command(write);
+    assert.equal(first.code, 0, first.stderr);
+    assert.match(first.stdout, /waist_yaw/);
+    // What may hold corrections by hand is not written over.
+    assert.equal((await command(write)).code, 2);
+    const list = await command(['robots', '--robots-dir', folder, '--json']);
+    assert.equal(JSON.parse(list.stdout).items[0].joints.length, 12);
+    const run = ['run', '--robots-dir', folder, '--robot', 'made', '--seconds', '1'];
+    assert.equal((await command(run)).code, 0);
+  } finally {
+    fs.rmSync(folder, { recursive: true });
+  }
 });

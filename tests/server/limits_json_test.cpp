@@ -74,7 +74,7 @@ TEST_F(LimitsJson, ConditionsAreThoseOfTheTrialsAndMore) {
   EXPECT_EQ(conditions["robot"], "kasaei");
   EXPECT_EQ(conditions["plant"], "bullet");
   EXPECT_EQ(conditions["walk"]["vx"], 0.2);
-  EXPECT_EQ(conditions["strategies"], Json({"ankle", "step", "time"}));
+  EXPECT_EQ(conditions["strategies"], Json({"ankle", "hip", "step", "time"}));
   EXPECT_EQ(conditions["observe_s"], 6.0);
   EXPECT_EQ(conditions["push"], Json({{"link", "torso"}, {"profile", "rectangular"}}));
   EXPECT_EQ(conditions["leg"], "left");

@@ -33,7 +33,7 @@ TEST(TrialJson, OnlyTheRobotIsRequired) {
 
 TEST(TrialJson, TellsEverythingThatIsWrongAtOnce) {
   EXPECT_THAT(errors_of(R"({"robot":7,"plant":"mujoco","seed":-1,"walk":{"vx":0.51,"vz":1},
-                            "strategies":["ankle","hip"],"settle_s":61,"observe_s":-1,
+                            "strategies":["ankle","knee"],"settle_s":61,"observe_s":-1,
                             "push":{"impulse_ns":0,"colour":"red"},"terrain":"flat"})"),
               UnorderedElementsAre("/robot", "/plant", "/seed", "/walk/vx", "/walk/vz",
                                    "/strategies", "/settle_s", "/observe_s", "/push/impulse_ns",

@@ -16,7 +16,7 @@ std::vector<std::vector<double>> torques(double control_delay, int ticks) {
   SenseParameters senses;
   senses.perfect_state = true;
   senses.control_delay = control_delay;
-  FullBodyPlant plant(robot, dt, senses, 1);
+  FullBodyPlant plant(robot, PhysicsParameters{.dt = dt}, senses, 1);
   engine::WalkingEngine engine(engine_parameters(*robot, PlantKind::bullet, {}, dt, senses),
                                plant.measurement());
   engine.walk({});
@@ -45,7 +45,7 @@ TEST(FullBodyPlantBullet, RefusesSensesThatAreNotValid) {
   const auto robot = load_robot("robots/kasaei");
   SenseParameters senses;
   senses.control_delay = 0.02;
-  EXPECT_THROW(FullBodyPlant(robot, dt, senses, 1), std::invalid_argument);
+  EXPECT_THROW(FullBodyPlant(robot, PhysicsParameters{.dt = dt}, senses, 1), std::invalid_argument);
 }
 
 TEST(FullBodyPlantBullet, PerfectSensesTellTheTruth) {
@@ -53,7 +53,7 @@ TEST(FullBodyPlantBullet, PerfectSensesTellTheTruth) {
   for (const bool perfect : {true, false}) {
     SenseParameters senses;
     senses.perfect_state = perfect;
-    FullBodyPlant plant(robot, dt, senses, 1);
+    FullBodyPlant plant(robot, PhysicsParameters{.dt = dt}, senses, 1);
     engine::WalkingEngine engine(engine_parameters(*robot, PlantKind::bullet, {}, dt, senses),
                                  plant.measurement());
     for (int i = 0; i < 100; ++i) plant.step(engine.update(plant.measurement()), {});

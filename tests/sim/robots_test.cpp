@@ -104,6 +104,8 @@ bool inside(const Shape& shape, const Vec3& point) {
       return point.head<2>().norm() < shape.size.x() && std::abs(point.z()) < 0.5 * shape.size.y();
     case Shape::Kind::sphere:
       return point.norm() < shape.size.x();
+    case Shape::Kind::hull:
+      break;  // none of these robots has one
   }
   return false;
 }

@@ -177,7 +177,7 @@ TEST(UrdfImport, RefusesBodiesThatCannotMove) {
 TEST(UrdfImport, RefusesWhatItWouldSimulateWrongly) {
   EXPECT_THAT(error_of(robot(link("a", inertial(1) + R"(<collision><geometry>
                       <mesh filename="foot.stl"/></geometry></collision>)"))),
-              HasSubstr("link 'a': mesh collision not supported yet"));
+              HasSubstr("link 'a': there is no file for its mesh foot.stl"));
   EXPECT_THAT(
       error_of(two_links("revolute", std::string(R"(<mimic joint="other"/>)") + plain_limit)),
       HasSubstr("mimics 'other'"));
@@ -186,6 +186,59 @@ TEST(UrdfImport, RefusesWhatItWouldSimulateWrongly) {
               HasSubstr("size of its collision geometry is 0 m; allowed: more than 0 m"));
   EXPECT_THAT(error_of("<robot"), HasSubstr("test.urdf: is no URDF"));
   EXPECT_THAT(error_of(robot("")), HasSubstr("test.urdf: is no URDF"));
+}
+
+TEST(UrdfImport, LockedJointsHoldTheirLinksWhereTheyAreLocked) {
+  ImportOptions options;
+  options.locked["a_b"] = 0.5 * M_PI;
+  const RobotModel model =
+      import_urdf(two_links("revolute", std::string(R"(<origin xyz="1 0 0"/><axis xyz="0 0 1"/>)") +
+                                            plain_limit),
+                  "test.urdf", options);
+  ASSERT_EQ(model.bodies.size(), 1u);
+  EXPECT_DOUBLE_EQ(model.mass(), 3.0);
+  EXPECT_LT((model.links.at("b").pose * Vec3::UnitX() - Vec3(1.0, 1.0, 0.0)).norm(), 1e-12);
+  options.locked["nobody"] = 0.0;
+  EXPECT_THAT([&] { import_urdf(two_links("revolute", plain_limit), "test.urdf", options); },
+              testing::ThrowsMessage<std::runtime_error>(
+                  HasSubstr("has no joint 'nobody', which is to be locked")));
+}
+
+TEST(UrdfImport, ALockedJointMayMimicAnother) {
+  ImportOptions options;
+  options.locked["a_b"] = 0.0;
+  const std::string mimic = std::string(R"(<mimic joint="other"/>)") + plain_limit;
+  EXPECT_EQ(import_urdf(two_links("revolute", mimic), "test.urdf", options).bodies.size(), 1u);
+}
+
+TEST(UrdfImport, MotorLimitsReplaceThoseOfTheFile) {
+  ImportOptions options;
+  options.motors["a_b"].effort = 7.0;
+  const RobotModel model = import_urdf(two_links("revolute", plain_limit), "test.urdf", options);
+  EXPECT_EQ(model.bodies[1].effort, 7.0);
+  EXPECT_EQ(model.bodies[1].velocity, 4.0);
+}
+
+TEST(UrdfImport, MendsWhatItIsToldToMend) {
+  ImportOptions options;
+  options.mode = ImportMode::mend;
+  ImportReport report;
+  const std::string shapes = R"(<collision><geometry><sphere radius="0"/></geometry></collision>
+      <collision><geometry><mesh filename="foot.stl"/></geometry></collision>)";
+  const RobotModel model = import_urdf(
+      robot(link("a", inertial(2)) + link("b", shapes) +
+            link("c", inertial(1, "0 0 0", "0 0 0", R"(ixx="0.1" iyy="0" izz="0.9")")) +
+            joint("revolute", "a", "b", plain_limit) + joint("revolute", "b", "c", plain_limit)),
+      "test.urdf", options, &report);
+  EXPECT_DOUBLE_EQ(model.bodies[1].mass, 0.003);
+  ASSERT_EQ(model.bodies[1].shapes.size(), 1u);
+  EXPECT_GT(model.bodies[1].shapes[0].size.x(), 0.0);
+  // None of the moments is above the sum of the others, and none is 0.
+  const Vec3 moments = model.bodies[2].inertia.diagonal();
+  EXPECT_GT(moments.minCoeff(), 0.0);
+  EXPECT_LE(2.0 * moments.maxCoeff(), moments.sum() * (1.0 + 1e-12));
+  EXPECT_EQ(report.mended.size(), 2u);
+  EXPECT_GE(report.quirks.size(), 3u);
 }
 
 TEST(UrdfImport, VisualMeshesAreNobodysBusiness) {

@@ -1,4 +1,4 @@
-#include "sim/robot/standing_state.h"
+#include "sim/robot/slope_state.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 namespace stagger::sim {
 namespace {
 
-TEST(StandingStateTest, SolesLieOnThePlaneUnderAnUprightTrunk) {
+TEST(SlopeStateTest, SolesLieOnThePlaneUnderAnUprightTrunk) {
   const auto robot = load_robot("robots/kasaei");
   const RobotState nominal = nominal_state(*robot);
   RigidBody body(robot->model);
@@ -17,7 +17,7 @@ TEST(StandingStateTest, SolesLieOnThePlaneUnderAnUprightTrunk) {
   const Vec3 com = body.com();
   for (const Vec3& steep : {Vec3(-0.14, 0.0, 1.0), Vec3(0.14, 0.0, 1.0), Vec3(0.1, 0.1, 1.0)}) {
     const Vec3 normal = steep.normalized();
-    const RobotState state = standing_state(*robot, normal);
+    const RobotState state = slope_state(*robot, normal);
     body.update(state);
     EXPECT_NEAR((body.com() - com).norm(), 0.0, 1e-9);
     EXPECT_EQ(state.base_orientation.coeffs(), nominal.base_orientation.coeffs());
@@ -33,9 +33,9 @@ TEST(StandingStateTest, SolesLieOnThePlaneUnderAnUprightTrunk) {
   }
 }
 
-TEST(StandingStateTest, OnLevelGroundItIsTheNominalState) {
+TEST(SlopeStateTest, OnLevelGroundItIsTheNominalState) {
   const auto robot = load_robot("robots/kasaei");
-  const RobotState state = standing_state(*robot, Vec3::UnitZ());
+  const RobotState state = slope_state(*robot, Vec3::UnitZ());
   EXPECT_NEAR((state.q - nominal_state(*robot).q).norm(), 0.0, 1e-9);
 }
 

@@ -1,4 +1,4 @@
-#include "sim/robot/standing_state.h"
+#include "sim/robot/slope_state.h"
 
 #include <Eigen/QR>
 #include <algorithm>
@@ -21,7 +21,7 @@ Vec3 rotation_vector(const Eigen::Matrix3d& rotation) {
 
 }  // namespace
 
-RobotState standing_state(const Robot& robot, const Vec3& normal) {
+RobotState slope_state(const Robot& robot, const Vec3& normal) {
   RobotState state = walking_state(robot);
   RigidBody body(robot.model);
   body.update(state);
