@@ -20,6 +20,9 @@ class LimitsJson : public ::testing::Test {
     spec.cells = {{0.0, 0.35, 0.01}, {90.0, 0.35, 0.01}, {0.0, {}, 0.01}};
     spec.rungs = {0.1, 0.2, 0.3};
     spec.seeds = {4, 5};
+    sim::PushSpec push;
+    push.link = "torso";
+    spec.trial.push = push;
     for (const sim::LimitCell& cell : spec.cells) {
       sim::Limit limit;
       limit.cell = cell;

@@ -70,10 +70,12 @@ TEST(WalkDefaults, TheLongestStepFitsStraightLegs) {
   EXPECT_NEAR(walk_defaults(p).max_step_length_m, 0.7 * p.leg_length, 1e-12);
 }
 
-TEST(WalkDefaults, FeetThatStandCloseMayStepThatClose) {
+TEST(WalkDefaults, FeetThatStandTooCloseStepWider) {
   BipedProportions p = human;
-  p.stance_width = 0.1;
-  EXPECT_DOUBLE_EQ(walk_defaults(p).min_step_width_m, 0.1);
+  p.stance_width = 0.5 * p.sole_width;
+  const WalkDescription walk = walk_defaults(p);
+  EXPECT_DOUBLE_EQ(walk.stance_width_m, walk.min_step_width_m);
+  EXPECT_GT(walk.min_step_width_m, p.sole_width);
 }
 
 TEST(WalkDefaults, GiveWayToTheDescriptionFieldByField) {
