@@ -38,6 +38,12 @@ WholeBodyController::WholeBodyController(const Robot& robot, const WholeBodyGain
     foot.corners = {foot.sole * Vec3(x, y, 0.0), foot.sole * Vec3(x, -y, 0.0),
                     foot.sole * Vec3(-x, y, 0.0), foot.sole * Vec3(-x, -y, 0.0)};
   }
+  limit_weights_.assign(joints_.size(), gains.limit_weight);
+  for (const LegGeometry& leg : legs_) {
+    for (const int joint : leg.ankle_joints) {
+      limit_weights_[static_cast<std::size_t>(joint)] = gains.ankle_limit_weight;
+    }
+  }
   torso_body_ = robot.model.links.at(robot.description.torso).body;
   torso_in_body_ = robot.torso_in_body();
   jacobian_.resize(6, nv_);
@@ -119,8 +125,8 @@ void WholeBodyController::add_joint_limit_tasks(const RobotState& state) {
       const double braking = room > 0.0 ? gains_.limit_braking : -gains_.limit_return * room;
       const double wanted = -way * (braking + gains_.limit_damping * excess);
       const Eigen::Index x = 6 + i;
-      problem_.h(x, x) += gains_.limit_weight;
-      problem_.g[x] -= gains_.limit_weight * wanted;
+      problem_.h(x, x) += limit_weights_[j];
+      problem_.g[x] -= limit_weights_[j] * wanted;
     }
   }
 }
@@ -157,8 +163,20 @@ void WholeBodyController::add_torso_task(const RigidBody& body,
   add_task(gains_.torso_weight, jacobian_.bottomRows(3), wanted);
 }
 
+double WholeBodyController::ankle_freedom(const LegGeometry& leg, const RobotState& state) const {
+  constexpr double least = 0.01;
+  double freedom = 1.0;
+  for (const int joint : leg.ankle_joints) {
+    const Body& body = joints_[static_cast<std::size_t>(joint)];
+    const double q = state.q[joint];
+    const double room = std::min(q - body.lower, body.upper - q) - gains_.limit_margin;
+    freedom = std::min(freedom, room / gains_.limit_margin);
+  }
+  return std::max(freedom, least);
+}
+
 void WholeBodyController::add_foot_task(const RigidBody& body, const Foot& foot,
-                                        const engine::FootTarget& target,
+                                        const engine::FootTarget& target, double freedom,
                                         const Eigen::Quaterniond& ground) {
   const Vec3 point = body.pose(foot.body) * foot.sole.translation();
   const Vec6 velocity = body.velocity(foot.body, point);
@@ -184,8 +202,11 @@ void WholeBodyController::add_foot_task(const RigidBody& body, const Foot& foot,
     weight = gains_.swing_weight;
   }
   wanted -= body.bias_acceleration(foot.body, point);
-  jacobian_.bottomRows<3>() *= gains_.angular_length;
-  wanted.tail<3>() *= gains_.angular_length;
+  // Weights go with the square of a row.
+  const double tilt = gains_.angular_length * std::sqrt(freedom);
+  const Vec3 scale(tilt, tilt, gains_.angular_length);
+  jacobian_.bottomRows<3>() = scale.asDiagonal() * jacobian_.bottomRows<3>();
+  wanted.tail<3>() = scale.cwiseProduct(wanted.tail<3>());
   add_task(weight, jacobian_, wanted);
 }
 
@@ -261,7 +282,7 @@ const Eigen::VectorXd& WholeBodyController::compute(const RigidBody& body, const
   add_momentum_task(body, targets);
   add_torso_task(body, targets);
   for (std::size_t i = 0; i < feet_.size(); ++i) {
-    add_foot_task(body, feet_[i], targets.feet[i], ground);
+    add_foot_task(body, feet_[i], targets.feet[i], ankle_freedom(legs_[i], state), ground);
   }
   add_joint_limit_tasks(state);
   add_dynamics(body);

@@ -53,8 +53,12 @@ class WholeBodyController {
   void add_joint_limit_tasks(const RobotState& state);
   void add_momentum_task(const RigidBody& body, const engine::WalkingTargets& targets);
   void add_torso_task(const RigidBody& body, const engine::WalkingTargets& targets);
+  /// How far the ankle is from the ends of its ranges: 1 well inside, next to nothing at an end.
+  double ankle_freedom(const LegGeometry& leg, const RobotState& state) const;
+  /// `freedom`: of the ankle. At the end of its range a foot tilts: held level it would drag the
+  /// whole body along.
   void add_foot_task(const RigidBody& body, const Foot& foot, const engine::FootTarget& target,
-                     const Eigen::Quaterniond& ground);
+                     double freedom, const Eigen::Quaterniond& ground);
   void find_contacts(const RigidBody& body, const engine::WalkingTargets& targets);
   void add_dynamics(const RigidBody& body);
   void add_limits(const RigidBody& body, const RobotState& state);
@@ -64,6 +68,7 @@ class WholeBodyController {
   std::vector<Body> joints_;  ///< whose motors limit the torques, in joint order
   engine::PerFoot<Foot> feet_;
   engine::PerFoot<LegGeometry> legs_;
+  std::vector<double> limit_weights_;  ///< of each joint
   int torso_body_;
   Eigen::Matrix3d torso_in_body_;
   Eigen::Index nv_;

@@ -20,6 +20,7 @@ WholeBodyGains whole_body_gains(const Robot& robot) {
   }
   gains.torso_weight *= angular_weight;
   gains.limit_weight *= angular_weight;
+  gains.ankle_limit_weight *= angular_weight;
   // A rate of momentum is a mass, a length and an acceleration.
   gains.momentum_weight /= scale.mass * scale.mass * angular_weight;
   gains.acceleration_regularisation *= angular_weight;

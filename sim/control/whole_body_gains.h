@@ -30,6 +30,7 @@ struct WholeBodyGains {
   double sole_margin = 0.005;       ///< corners lie this far inside the sole [m]
   double least_normal_force = 0.5;  ///< per corner [N]
   double limit_weight = 100.0;      ///< braking of a joint before the end of its range
+  double ankle_limit_weight = 1.0;  ///< the same of ankles: a foot may tilt, a knee not give way
   double limit_braking = 200.0;     ///< by this it can be stopped there [rad/s^2]
   double limit_damping = 100.0;     ///< for a joint that is faster than that [1/s]
   double limit_return = 400.0;      ///< for a joint beyond its margin [1/s^2]

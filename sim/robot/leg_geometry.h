@@ -1,6 +1,8 @@
 // What of a leg decides how far it reaches: hip, knee and ankle, whatever the order of its joints.
 #pragma once
 
+#include <vector>
+
 #include "sim/robot/robot.h"
 
 namespace stagger::sim {
@@ -11,7 +13,8 @@ namespace stagger::sim {
 struct LegGeometry {
   int hip_body = -1;  ///< its frame's origin lies on the hip's pitch axis; -1: not found
   int hip_roll_body = -1;
-  int ankle_body = -1;  ///< its frame's origin lies on the ankle's pitch axis
+  int ankle_body = -1;            ///< its frame's origin lies on the ankle's pitch axis
+  std::vector<int> ankle_joints;  ///< those below the knee, as indices of joints
   double length = 0.0;  ///< between those two origins with a straight knee [m]; 0: not found
 };
 
