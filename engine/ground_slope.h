@@ -6,8 +6,8 @@
 namespace stagger::engine {
 
 /// A gradient that is learnt from pairs of footholds (normalised least mean squares): single tiles
-/// and stones average out, a slope remains. What is within the tolerance teaches nothing: on level
-/// ground the slope stays exactly zero.
+/// and stones average out, a slope remains. On level ground what is within the tolerance teaches
+/// nothing: there the slope stays exactly zero.
 class GroundSlope {
  public:
   /// Takes in that the ground goes from one foothold to the other [m].

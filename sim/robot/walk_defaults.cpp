@@ -13,7 +13,7 @@ namespace {
 using engine::Side;
 
 // Anchor: robot kasaei, for whom these were chosen by push sweeps. Times at h = 1 m [s].
-constexpr double t_ss = 0.40;
+constexpr double t_ss = 0.36;
 constexpr double t_ds = 0.04;
 constexpr double t_init = 0.6;
 // Shares of the leg's length. Kasaei's legs are 1 m long: these are its lengths in metres.
