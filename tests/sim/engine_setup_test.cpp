@@ -17,7 +17,7 @@ TEST(EngineSetup, MarginsScaleWithTheRobot) {
     const engine::Parameters p = parameters_of(name);
     const double length = p.com_height;  // the reference robot's is 1 m
     EXPECT_NEAR(p.step_freeze, defaults.step_freeze * std::sqrt(length), 1e-12) << name;
-    EXPECT_NEAR(p.time_limit, 0.3 * std::sqrt(length), 1e-12) << name;
+    EXPECT_NEAR(p.time_limit, 0.75 * p.t_ss, 1e-12) << name;
     EXPECT_NEAR(p.least_t_ss, defaults.least_t_ss * std::sqrt(length), 1e-12) << name;
     EXPECT_NEAR(p.foot_clearance, defaults.foot_clearance * length, 1e-12) << name;
     EXPECT_NEAR(p.contact_load / (p.mass * p.gravity), 20.0 / (30.0 * 9.81), 1e-9) << name;

@@ -164,7 +164,7 @@ TEST(LimitsLipm, LieWithinOneRungOfTheCeiling) {
     LimitsSpec spec = spec_with({{0.0, 0.1, 0.01}, {90.0, 0.1, 0.01}, {270.0, 0.35, 0.01}}, {});
     if (!step) spec.cells.push_back({45.0, {}, 0.01});
     spec.trial.strategies = strategies(step, false);
-    spec.rungs = ladder(0.04, 1.3, rung);
+    spec.rungs = ladder(0.04, 1.7, rung);
     for (const Limit& limit : find_limits(spec, kasaei())) {
       EXPECT_LE(limit.pass_dv.value(), limit.ceiling_dv.value()) << limit.cell.direction_deg;
       EXPECT_GE(limit.pass_dv.value(), limit.ceiling_dv.value() - rung) << limit.cell.direction_deg;

@@ -43,14 +43,14 @@ TEST(TrialCeiling, OfTheAnkleForwardIsTheSoleItself) {
 }
 
 TEST(TrialCeiling, OfStepsForwardIsTheGeometricSeries) {
-  // d <- h + (l + (d - h) e^{-w Tds}) e^{-w T}, with 0.3 s of 0.4 s left for the first step.
+  // d <- h + (l + (d - h) e^{-w Tds}) e^{-w T}, with 0.27 s of 0.36 s left for the first step.
   const double step = 0.7;
   const double transfer = std::exp(-omega * 0.04);
   double d = half_length;
   for (int i = 0; i < 60; ++i) {
-    d = half_length + (step + (d - half_length) * transfer) * std::exp(-omega * 0.4);
+    d = half_length + (step + (d - half_length) * transfer) * std::exp(-omega * 0.36);
   }
-  d = half_length + (step + (d - half_length) * transfer) * std::exp(-omega * 0.3);
+  d = half_length + (step + (d - half_length) * transfer) * std::exp(-omega * 0.27);
   EXPECT_NEAR(ceiling(pushed(Vec3::UnitX(), 0.05, true, false)), d * omega / felt(0.05), 1e-6);
 }
 

@@ -90,7 +90,7 @@ TEST(WalkDefaults, GiveWayToTheDescriptionFieldByField) {
 
 TEST(WalkDefaults, FollowTheHeightThatTheDescriptionGives) {
   const WalkDescription walk = kasaei_that_walks({{"com_height_m", 0.81}})->description.walk;
-  EXPECT_NEAR(walk.t_ss_s, 0.9 * 0.4, 1e-12);
+  EXPECT_NEAR(walk.t_ss_s, 0.9 * 0.36, 1e-12);
   EXPECT_NEAR(walk.swing_height_m, 0.05, 1e-9);  // the legs are as long as before
 }
 
