@@ -62,8 +62,8 @@ test('walk, stop and strategies', async () => {
   const patch = await server.request('PATCH', '/api/v1/strategies', { body: { step: false } });
   assert.deepEqual([patch.json.ankle, patch.json.step], [true, false]);
   assert.ok(Number.isInteger(patch.json.tick));
-  assert.deepEqual((await server.get('/api/v1/strategies')).json, { ankle: true, step: false, time: true });
-  assert.deepEqual((await server.state()).strategies, { ankle: true, step: false, time: true });
+  assert.deepEqual((await server.get('/api/v1/strategies')).json, { ankle: true, hip: true, step: false, time: true });
+  assert.deepEqual((await server.state()).strategies, { ankle: true, hip: true, step: false, time: true });
   await server.request('PATCH', '/api/v1/strategies', { body: { step: true } });
 });
 
@@ -145,9 +145,9 @@ test('every command refuses fields that it does not know', async () => {
     refused(answer, 422);
     assert.ok(pointers(answer).includes('/what'), target);
   }
-  const patch = await server.request('PATCH', '/api/v1/strategies', { body: { hip: true } });
+  const patch = await server.request('PATCH', '/api/v1/strategies', { body: { knee: true } });
   refused(patch, 422);
-  assert.deepEqual(pointers(patch), ['/hip']);
+  assert.deepEqual(pointers(patch), ['/knee']);
 });
 
 test('values out of range are refused', async () => {
