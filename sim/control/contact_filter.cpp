@@ -123,6 +123,9 @@ void ContactFilter::move_errors(const Eigen::Matrix3d& rotation, const Vec3& vel
   grow(velocity_at, squared(dt_ * noise_.accelerometer));
   grow(gyro_at, dt_ * squared(noise_.gyro_walk));
   grow(accelerometer_at, dt_ * squared(noise_.accelerometer_walk));
+  // What rounding makes of it grows with the yaw, which nothing observes: after a minute or two of
+  // walking an unsymmetric covariance would bring the filter down.
+  p = (0.5 * (p + p.transpose())).eval();
 }
 
 void ContactFilter::recentre() {
@@ -139,6 +142,19 @@ void ContactFilter::recentre() {
   for (const int at : {position_at, place_of(0), place_of(1)}) {
     p.middleCols<3>(at) -= p.middleCols<3>(turn_at) * cross.transpose();
   }
+  // Nothing observes where the base is and which way it looks: from here on both are right by
+  // definition of the world, and what was unsure about them is its drift. What is left is how the
+  // feet stand to the base. Else the variance of the drift would grow with the way, and drown that.
+  for (const int at : {place_of(0), place_of(1)}) {
+    p.middleRows<3>(at) -= p.middleRows<3>(position_at);
+  }
+  for (const int at : {place_of(0), place_of(1)}) {
+    p.middleCols<3>(at) -= p.middleCols<3>(position_at);
+  }
+  p.middleRows<3>(position_at).setZero();
+  p.middleCols<3>(position_at).setZero();
+  p.row(turn_at + 2).setZero();
+  p.col(turn_at + 2).setZero();
 }
 
 void ContactFilter::plant(std::size_t foot, const Vec3& in_base) {
