@@ -74,6 +74,75 @@ TEST_P(FullBodyPushed, RecoversAtEveryPartOfTheStep) {
   }
 }
 
+/// A push of 10 ms in mid-step, left foot standing.
+TrialSpec push_in_step(double direction_deg, double phase, double impulse_ns) {
+  TrialSpec spec;
+  spec.robot = "kasaei";
+  spec.settle_s = 2.0;
+  spec.push = PushSpec();
+  const double angle = direction_deg * M_PI / 180.0;
+  spec.push->direction = {std::cos(angle), std::sin(angle), 0.0};
+  spec.push->impulse_ns = impulse_ns;
+  spec.push->duration_s = 0.01;
+  spec.push->trigger = PhaseTrigger{WalkingState::single_support, Side::left, phase};
+  return spec;
+}
+
+class FullBodyStruck : public ::testing::TestWithParam<int> {};
+
+INSTANTIATE_TEST_SUITE_P(Directions, FullBodyStruck,
+                         ::testing::Values(0, 45, 90, 135, 180, 225, 270, 315));
+
+TEST_P(FullBodyStruck, SurvivesTwentyOneNewtonSecondsWithPerfectState) {
+  for (const double phase : {0.1, 0.5}) {
+    for (const double impulse : {9.0, 15.0, 21.0}) {
+      TrialSpec spec = push_in_step(GetParam(), phase, impulse);
+      spec.senses.perfect_state = true;
+      EXPECT_EQ(run_trial(spec, kasaei()).outcome, TrialOutcome::recovered)
+          << GetParam() << " deg at " << phase << ": " << impulse << " N s";
+    }
+  }
+}
+
+TEST_P(FullBodyStruck, SurvivesFifteenNewtonSecondsByItsSensors) {
+  for (const double phase : {0.1, 0.5, 0.85}) {
+    EXPECT_EQ(run_trial(push_in_step(GetParam(), phase, 15.0), kasaei()).outcome,
+              TrialOutcome::recovered)
+        << GetParam() << " deg at " << phase;
+  }
+}
+
+TEST(FullBodyStanding, TheHipsSaveWhatTheAnklesAloneCannot) {
+  for (const double direction : {1.0, -1.0}) {
+    TrialSpec spec;
+    spec.robot = "kasaei";
+    spec.stand = true;
+    spec.settle_s = 1.0;
+    spec.senses.perfect_state = true;
+    spec.strategies = {.ankle = true, .hip = false, .step = false, .time = false};
+    spec.push = PushSpec();
+    spec.push->direction = {direction, 0.0, 0.0};
+    spec.push->duration_s = 0.01;
+    spec.push->impulse_ns = 4.5;
+    EXPECT_EQ(run_trial(spec, kasaei()).outcome, TrialOutcome::recovered) << direction;
+    spec.push->impulse_ns = 5.7;
+    EXPECT_EQ(run_trial(spec, kasaei()).outcome, TrialOutcome::fell) << direction;
+    spec.strategies.hip = true;
+    EXPECT_EQ(run_trial(spec, kasaei()).outcome, TrialOutcome::recovered) << direction;
+  }
+}
+
+TEST(FullBody, WalksFarByItsSensors) {
+  // What nothing observes, place and heading, must not spoil what is observed.
+  SimulationConfig config;
+  config.robot = kasaei();
+  Simulation simulation(config);
+  simulation.walk({0.5, 0.0, 0.0});
+  for (int i = 0; i < 150000; ++i) simulation.step();
+  EXPECT_EQ(simulation.fall_reason(), "");
+  EXPECT_GT(simulation.frame().com.head<2>().norm(), 65.0);
+}
+
 TEST(FullBody, StandsUpAgainAfterWalking) {
   SimulationConfig config;
   config.robot = kasaei();
