@@ -1,3 +1,4 @@
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -21,12 +22,14 @@ namespace {
 
 using sim::Range;
 
-volatile std::sig_atomic_t interrupted = 0;
+// Read by other threads than the one that the signal stops.
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 /// Ctrl-C asks the search to stop; a second one ends the process at once.
 void listen_for_interrupts() {
   struct sigaction action {};
-  action.sa_handler = [](int) { interrupted = 1; };
+  action.sa_handler = [](int) { interrupted = true; };
   action.sa_flags = SA_RESETHAND;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
@@ -194,7 +197,7 @@ int limits_command(const LimitsOptions& options, const Folders& folders) {
       run.watch = [&](const sim::LimitsProgress& progress) {
         last = progress;
         line.show(progress);
-        return interrupted == 0;
+        return !interrupted;
       };
       limits = sim::find_limits(spec, robot, run);
     } catch (const sim::LimitsStopped&) {
