@@ -6,7 +6,7 @@
 namespace stagger::sim {
 
 /// The defaults are for 30 kg with the CoM at 1 m. First chosen by the push scores of a biped of
-/// that size on the same controller; the push sweep in tests/bench measures them. Stiffness in
+/// that size on the same controller; `stagger limits` measures them. Stiffness in
 /// 1/s^2, damping in 1/s.
 struct WholeBodyGains {
   double com_weight = 1000.0;  ///< horizontal CoM acceleration w^2 (c - p - hip's shift)
