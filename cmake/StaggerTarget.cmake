@@ -26,11 +26,18 @@ function(stagger_sources out folder)
   set(${out} ${sources} PARENT_SCOPE)
 endfunction()
 
+# In a unit of many sources, a local variable may have the name of another source's constant, and a class that one source
+# keeps for itself looks as if a header had it.
+set(STAGGER_UNIT_WARNINGS -Wshadow)
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  set(STAGGER_UNIT_WARNINGS -Wshadow=local -Wno-subobject-linkage)
+endif()
+
 function(stagger_configure target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF LINKER_LANGUAGE CXX)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_compile_options(${target} PRIVATE
-    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+    -Wall -Wextra -Wpedantic ${STAGGER_UNIT_WARNINGS} -Wconversion -Wno-sign-conversion
     -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align -Wdouble-promotion
     # A trial must repeat to the bit: no fusing of a multiplication and an addition where the optimiser sees fit.
     -ffp-contract=off)

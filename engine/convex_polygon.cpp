@@ -4,12 +4,6 @@
 #include <limits>
 
 namespace stagger::engine {
-namespace {
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-}  // namespace
-
 ConvexPolygon::ConvexPolygon(std::span<const Vec2> points) {
   // Andrew's monotone chain.
   std::array<Vec2, capacity> sorted;

@@ -6,13 +6,11 @@
 namespace stagger::engine {
 namespace {
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-constexpr double rounding = 1e-12;  // [m]
+constexpr double corner_rounding = 1e-12;  // [m]
 
 /// Is b so near to the segment from a to c, or to its wrong side, that the hull can do without it?
 bool superfluous(const Vec2& a, const Vec2& b, const Vec2& c) {
-  return cross(b - a, c - a) <= rounding * (c - a).norm();
+  return cross(b - a, c - a) <= corner_rounding * (c - a).norm();
 }
 
 }  // namespace
@@ -27,7 +25,7 @@ ConvexSet convex_hull(std::vector<Vec2> points) {
   std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) {
     return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
   });
-  const auto same = [](const Vec2& a, const Vec2& b) { return (a - b).norm() < rounding; };
+  const auto same = [](const Vec2& a, const Vec2& b) { return (a - b).norm() < corner_rounding; };
   points.erase(std::unique(points.begin(), points.end(), same), points.end());
   if (points.size() < 3) return points;
   ConvexSet hull;

@@ -68,6 +68,16 @@ Lqg::Lqg(const Parameters& p)
   settled_gain_ = covariance_ * (covariance_ + measurement).inverse();
 }
 
+void Lqg::retune(const Lqg& other) {
+  integral_ = other.feedback_(2) != 0.0 ? (feedback_(2) / other.feedback_(2) * integral_).eval()
+                                        : Vec2(Vec2::Zero());
+  feedback_ = other.feedback_;
+  process_ = other.process_;
+  measurement_ = other.measurement_;
+  gate_ = other.gate_;
+  settled_gain_ = other.settled_gain_;
+}
+
 void Lqg::estimate(const Vec2& com, const Vec2& dcm) {
   Eigen::Matrix2d measured;
   measured.row(0) = com;

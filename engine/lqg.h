@@ -41,6 +41,10 @@ class Lqg {
   Vec2 control(const LqgReference& reference, const ConvexPolygon& polygon, const HipAid& hip,
                bool act, bool integrate, const DcmGoal& goal = {});
 
+  /// Takes over the weights and noises of another one for the same pendulum. The estimate stays,
+  /// and so does what the integral adds to the ZMP.
+  void retune(const Lqg& other);
+
   Vec2 com() const { return state_.row(0); }
   Vec2 dcm() const { return state_.row(1); }
   /// Standard deviation of dcm() after the last measurement, on each axis [m].

@@ -2,17 +2,21 @@
 
 #include <algorithm>
 #include <sstream>
-#include <stdexcept>
+#include <utility>
 
 namespace stagger::engine {
 namespace {
 
 constexpr double unlimited = 1e9;
 
-[[noreturn]] void refuse(const std::string& name, double value, const std::string& allowed) {
+std::string complaint(const std::string& name, double value, const std::string& allowed) {
   std::ostringstream text;
   text << "engine parameter " << name << " = " << value << "; allowed: " << allowed;
-  throw std::invalid_argument(text.str());
+  return text.str();
+}
+
+[[noreturn]] void refuse(const std::string& name, double value, const std::string& allowed) {
+  throw ParameterError(name, value, allowed);
 }
 
 std::string described(double least, double most, const char* unit) {
@@ -60,6 +64,7 @@ void validate_ranges(const Parameters& p) {
   within("ankle_reach (width)", p.ankle_reach.y(), 1e-4, unlimited, "m");
 
   within("max_step_length", p.max_step_length, 1e-3, 5.0, "m");
+  within("max_step_back", p.max_step_back, 1e-3, 5.0, "m");
   within("min_step_width", p.min_step_width, -5.0, 5.0, "m");
   within("max_step_width", p.max_step_width, 0.001, 5.0, "m");
   within("max_step_turn", p.max_step_turn, 1e-3, 1.5, "rad");
@@ -78,11 +83,13 @@ void validate_ranges(const Parameters& p) {
   within("step_gain", p.step_gain, 0.0, 10.0, "");
   within("step_margin", p.step_margin, 0.0, unlimited, "m");
   within("step_freeze", p.step_freeze, 0.0, 60.0, "s");
+  within("step_anew", p.step_anew, 0.0, unlimited, "m");
   within("time_limit", p.time_limit, 0.0, 60.0, "s");
   within("time_constant", p.time_constant, 1e-6, unlimited, "s");
   within("time_reach", p.time_reach, 0.01, 1.0, "");
   within("least_t_ss", p.least_t_ss, 0.01, 60.0, "s");
   within("swing_speed", p.swing_speed, 1e-3, unlimited, "m/s");
+  within("swing_acceleration", p.swing_acceleration, 1e-3, unlimited, "m/s^2");
   within("contact_load", p.contact_load, 0.0, unlimited, "N");
   within("landing_patience", p.landing_patience, 0.0, unlimited, "s");
 
@@ -127,9 +134,16 @@ void validate_together(const Parameters& p) {
 
 }  // namespace
 
-void validate(const Parameters& parameters) {
+ParameterError::ParameterError(std::string name, double value, std::string allowed)
+    : std::invalid_argument(complaint(name, value, allowed)),
+      name_(std::move(name)),
+      value_(value),
+      allowed_(std::move(allowed)) {}
+
+const Parameters& validate(const Parameters& parameters) {
   validate_ranges(parameters);
   validate_together(parameters);
+  return parameters;
 }
 
 }  // namespace stagger::engine

@@ -1,6 +1,9 @@
 // Every number that the engine can be built with, with unit, default and allowed range.
 #pragma once
 
+#include <stdexcept>
+#include <string>
+
 #include "engine/types.h"
 
 namespace stagger::engine {
@@ -50,7 +53,8 @@ struct Parameters {
   /// sole's length and its width [m].
   Vec2 ankle_reach{1e9, 1e9};
 
-  double max_step_length = 0.95;  ///< |x| of a step in the stance foot's frame [m]
+  double max_step_length = 0.95;  ///< greatest x of a step in the stance foot's frame [m]
+  double max_step_back = 0.95;    ///< greatest -x of a step in the stance foot's frame [m]
   double min_step_width = 0.10;   ///< least lateral distance of the feet [m]
   double max_step_width = 0.60;   ///< greatest lateral distance of the feet [m]
   double max_step_turn = 0.6;     ///< |yaw| of a step in the stance foot's frame [rad]
@@ -76,13 +80,17 @@ struct Parameters {
   double step_gain = 1.0;     ///< k_sa of eq. (11)
   double step_margin = 0.03;  ///< compliance margin on |Delta_f| [m]
   double step_freeze = 0.06;  ///< place and time stay as they are in the last part of the swing [s]
-  double time_limit = 0.2;    ///< |adjusted - nominal| single support duration [s]
+  /// But a step whose foothold is then still farther than this from catching the DCM is taken anew,
+  /// with all the time that the foot needs to get there [m].
+  double step_anew = 1e9;
+  double time_limit = 0.2;      ///< |adjusted - nominal| single support duration [s]
   double time_constant = 0.04;  ///< of the lag filter of eq. (13): k_f = tick / time_constant [s]
   /// A step that would have to be longer than this share of what the leg reaches, forward or
   /// backward, comes sooner as well, in (0, 1]. With 1 it does once the place has done all it can.
   double time_reach = 1.0;
-  double least_t_ss = 0.15;  ///< no single support is adjusted to less [s]
-  double swing_speed = 1e9;  ///< greatest speed of the swing foot [m/s]
+  double least_t_ss = 0.15;         ///< no single support is adjusted to less [s]
+  double swing_speed = 1e9;         ///< greatest speed of the swing foot [m/s]
+  double swing_acceleration = 1e9;  ///< greatest acceleration of the swing foot [m/s^2]
 
   double contact_load = 20.0;      ///< a swing foot that carries more has landed [N]
   double landing_patience = 0.10;  ///< how long single support waits for a late landing [s]
@@ -91,9 +99,23 @@ struct Parameters {
   Strategies strategies;
 };
 
-/// Throws std::invalid_argument, naming field, value and allowed range, at the first value that is
-/// not finite, out of its range, or does not go with another.
-void validate(const Parameters& parameters);
+/// One parameter that is not as it should be.
+class ParameterError : public std::invalid_argument {
+ public:
+  ParameterError(std::string name, double value, std::string allowed);
+  const std::string& name() const { return name_; }
+  double value() const { return value_; }
+  const std::string& allowed() const { return allowed_; }
+
+ private:
+  std::string name_;
+  double value_;
+  std::string allowed_;
+};
+
+/// Throws ParameterError at the first value that is not finite, out of its range, or does not go
+/// with another; else returns what it was given.
+const Parameters& validate(const Parameters& parameters);
 
 /// Whether the hip strategy may act.
 inline bool hip_acts(const Parameters& p) {

@@ -5,8 +5,8 @@ namespace {
 
 ConvexPolygon box(const Parameters& p) {
   const std::array<Vec2, 4> corners{
-      Vec2(-p.max_step_length, -p.max_step_width), Vec2(p.max_step_length, -p.max_step_width),
-      Vec2(p.max_step_length, -p.min_step_width), Vec2(-p.max_step_length, -p.min_step_width)};
+      Vec2(-p.max_step_back, -p.max_step_width), Vec2(p.max_step_length, -p.max_step_width),
+      Vec2(p.max_step_length, -p.min_step_width), Vec2(-p.max_step_back, -p.min_step_width)};
   return ConvexPolygon(corners);
 }
 

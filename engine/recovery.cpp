@@ -15,7 +15,7 @@ namespace {
 constexpr double doubted_deviations = 4.0;
 
 /// Of the soles, what the DCM may need to come to rest.
-constexpr double kept_share = 0.8;
+constexpr double standing_share = 0.8;
 
 /// The catching foothold runs away with e^{w T}: the speed that the swing foot needs for it, in
 /// proportion to e^{w T} / T, is least for w T = 1. A walk in quick steps takes no slower ones.
@@ -69,8 +69,8 @@ Side Recovery::support_side(const Vec2& dcm, const PerFoot<FootPose>& feet, bool
 }
 
 ConvexPolygon Recovery::standing(const PerFoot<FootPose>& feet) const {
-  return support_polygon({kept_share * sole_.half_length, kept_share * sole_.half_width}, feet[0],
-                         feet[1]);
+  return support_polygon({standing_share * sole_.half_length, standing_share * sole_.half_width},
+                         feet[0], feet[1]);
 }
 
 bool Recovery::can_stand(const Vec2& dcm, const PerFoot<FootPose>& feet) const {

@@ -39,6 +39,11 @@ class StateMachine {
   void recover(Side support);
   /// Durations of the steps that begin from now on [s].
   void set_times(const StepTimes& times) { nominal_ = times; }
+  /// Initialize (the next one) and the patience with a late landing [s].
+  void set_waits(double t_init, double patience) {
+    t_init_ = t_init;
+    patience_ = patience;
+  }
   /// Which foot stands first; only while idle.
   void set_support_side(Side side) { support_ = side; }
 

@@ -19,7 +19,8 @@ StepTimes step_times(const WalkCommand& command, const Parameters& parameters) {
                               std::min(parameters.least_t_ss, parameters.t_ss), times.t_ss);
     }
   };
-  hurry(std::abs(command.vx), parameters.max_step_length);
+  hurry(std::abs(command.vx),
+        command.vx < 0.0 ? parameters.max_step_back : parameters.max_step_length);
   // The leading foot takes the way of two steps, on top of the stance width.
   hurry(2.0 * std::abs(command.vy), parameters.max_step_width - parameters.stance_width);
   hurry(std::abs(command.wz), parameters.max_step_turn);

@@ -24,6 +24,11 @@ constexpr double least_span = 1e-6;  // [s]
 
 }  // namespace
 
+double least_time(const Vec2& way, const Vec2& velocity, double duration, double acceleration) {
+  constexpr double hardest = 10.0 / std::numbers::sqrt3;
+  return std::sqrt(hardest * (way - 0.5 * duration * velocity).norm() / acceleration);
+}
+
 double SwingTrajectory::span() const { return std::max(duration_ - since_, least_span); }
 
 double SwingTrajectory::share(double time) const {
@@ -39,9 +44,14 @@ void SwingTrajectory::start(const FootPose& start, const FootPose& target, doubl
   duration_ = duration;
   const double z0 = start.position.z();
   const double z1 = target.position.z();
-  const double mean = 0.5 * (z0 + z1);
-  const double middle = mean + middle_control_of_unit_peak * (std::max(z0, z1) + height - mean);
-  lift_ = {z0, z0, z0, middle, z1, z1, z1};
+  lift_ = {z0, z0, z0, z0, z1, z1, z1};
+  lift(height);
+}
+
+void SwingTrajectory::lift(double height) {
+  const double mean = 0.5 * (lift_.front() + lift_.back());
+  const double peak = std::max(lift_.front(), lift_.back()) + height;
+  lift_[3] = mean + middle_control_of_unit_peak * (peak - mean);
 }
 
 void SwingTrajectory::retarget(const FootPose& target, double time, double duration) {

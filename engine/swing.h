@@ -7,6 +7,11 @@
 
 namespace stagger::engine {
 
+/// About the time that a foot at `velocity` needs to come `way` farther and to rest there, if its
+/// acceleration stays below a limit; `duration` [s] is a guess. A smooth step of degree 5 over d in
+/// T is at its hardest at 10 / sqrt(3) d / T^2, and a foot that only comes to rest goes v T / 2.
+double least_time(const Vec2& way, const Vec2& velocity, double duration, double acceleration);
+
 class SwingTrajectory {
  public:
   /// Lift-off at rest from `start`; lands on `target` (z: the ground there) after `duration` [s],
@@ -17,11 +22,15 @@ class SwingTrajectory {
   /// position, velocity and acceleration. `time` is now, since lift-off [s].
   void retarget(const FootPose& target, double time, double duration);
 
+  /// On the way since the last of these two it rises by `height` as it did after lift-off.
+  void lift(double height);
+
   /// Target of the foot at `time` since lift-off [s]. After `duration` the foot goes on down at
   /// `landing_speed` until someone sees it land.
   FootTarget at(double time) const;
 
   double duration() const { return duration_; }
+  double landing_height() const { return lift_.back(); }
 
   static constexpr double landing_speed = 0.1;  ///< [m/s]
 

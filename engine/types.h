@@ -41,6 +41,9 @@ struct Footstep {
 /// The four states of the paper's walking state machine (section III-A).
 enum class WalkingState : std::uint8_t { idle, initialize, single_support, double_support };
 
+/// z of the cross product of two vectors of the ground plane: positive when b is to the left of a.
+inline double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
 /// Rotates a vector of the ground plane by an angle [rad].
 inline Vec2 rotated(const Vec2& v, double angle) {
   const double c = std::cos(angle);

@@ -18,11 +18,6 @@ Footstep footstep(const FootPose& pose, Side side) {
   return {pose.position.head<2>(), pose.yaw, side};
 }
 
-const Parameters& valid(const Parameters& parameters) {
-  validate(parameters);
-  return parameters;
-}
-
 WalkingEngine::StepListError list_error(StepFault fault) {
   using Error = WalkingEngine::StepListError;
   switch (fault) {
@@ -41,11 +36,11 @@ WalkingEngine::StepListError list_error(StepFault fault) {
 }  // namespace
 
 WalkingEngine::WalkingEngine(const Parameters& parameters, const Measurement& start, Layout)
-    : WalkingEngine(parameters, start, ReachRegion(valid(parameters))) {}
+    : WalkingEngine(parameters, start, ReachRegion(validate(parameters))) {}
 
 WalkingEngine::WalkingEngine(const Parameters& parameters, const Measurement& start,
                              const ReachRegion& reach, Layout)
-    : parameters_(valid(parameters)),
+    : parameters_(validate(parameters)),
       omega_(natural_frequency(parameters)),
       sole_(usable_sole(parameters)),
       reach_(reach),
@@ -76,17 +71,52 @@ WalkingEngine::WalkingEngine(const Parameters& parameters, const Measurement& st
 }
 
 void WalkingEngine::set_pattern(const WalkCommand& command, std::size_t kept) {
-  pattern_ = step_pattern(command, reach_, parameters_);
+  wish_ = command;
+  pattern_ = waiting_ ? step_pattern(command, waiting_->reach, waiting_->parameters)
+                      : step_pattern(command, reach_, parameters_);
+  steps_before_change_ = std::min(steps_before_change_, kept);
   for (std::size_t i = kept; i < coming_.size(); ++i) coming_[i] = pattern_;
   machine_.set_times(coming_[0].times);
   list_size_ = std::min(list_size_, list_next_ + kept);
 }
 
-void WalkingEngine::walk(const WalkCommand& command) {
+std::size_t WalkingEngine::committed_steps() const {
   const WalkingState state = machine_.state();
-  std::size_t kept = state == WalkingState::single_support && !machine_.last_step() ? 2 : 1;
-  if (state == WalkingState::idle || !machine_.walking()) kept = 0;
-  set_pattern(command, kept);
+  if (state == WalkingState::idle || !machine_.walking()) return 0;
+  return state == WalkingState::single_support && !machine_.last_step() ? 2 : 1;
+}
+
+bool WalkingEngine::change(const Tuning& tuning) {
+  if (!same_body(tuning.parameters, parameters_)) return false;
+  waiting_ = tuning;
+  if (list_next_ < list_size_) {
+    steps_before_change_ = std::numeric_limits<std::size_t>::max();
+  } else {
+    steps_before_change_ = committed_steps();
+    set_pattern(wish_, steps_before_change_);
+  }
+  return true;
+}
+
+void WalkingEngine::retune() {
+  const Strategies strategies = parameters_.strategies;
+  parameters_ = waiting_->parameters;
+  parameters_.strategies = strategies;
+  reach_ = waiting_->reach;
+  time_reach_ = waiting_->time_reach;
+  capture_ = waiting_->capture;
+  recovery_ = waiting_->recovery;
+  lqg_.retune(waiting_->lqg);
+  machine_.set_waits(parameters_.t_init, parameters_.landing_patience);
+  waiting_.reset();
+  // After a list the gait is still the old one.
+  if (machine_.state() == WalkingState::idle) set_pattern(wish_, 0);
+}
+
+void WalkingEngine::walk(const WalkCommand& command) {
+  // The weight shift begins anew, from wherever the CoM is by then.
+  if (waiting_ && machine_.state() == WalkingState::idle) retune();
+  set_pattern(command, committed_steps());
   recovering_ = false;
   corrections_left_ = 0;
   machine_.start();
@@ -101,13 +131,16 @@ void WalkingEngine::stop() {
   corrections_left_ = std::max(corrections_left_, most_corrections);
 }
 
-WalkingEngine::StepListError WalkingEngine::follow(std::span<const Footstep> steps) {
+WalkingEngine::StepListError WalkingEngine::follow(std::span<const Footstep> steps,
+                                                   std::size_t* refused) {
   if (machine_.state() != WalkingState::idle) return StepListError::walking;
   if (steps.size() > max_listed_steps) return StepListError::too_long;
   if (steps.empty()) return StepListError::none;
+  if (waiting_) retune();
   // The first step starts from the other foot, wherever that stands now.
   Footstep from = stance_.side == steps[0].side ? landed_ : stance_;
   for (const Footstep& step : steps) {
+    if (refused != nullptr) *refused = static_cast<std::size_t>(&step - steps.data());
     if (step.side == from.side) return StepListError::wrong_side;
     const StepFault fault = check_step(from, step, reach_, parameters_);
     if (fault != StepFault::none) return list_error(fault);
@@ -147,6 +180,11 @@ bool WalkingEngine::take(const Measurement& measurement) {
 }
 
 const WalkingTargets& WalkingEngine::update(const Measurement& measurement) {
+  // On its way to the middle it would have to jump.
+  if (waiting_ && machine_.state() == WalkingState::idle &&
+      machine_.time() >= std::max(parameters_.t_init, waiting_->parameters.t_init)) {
+    retune();
+  }
   // Never seen yet, or not for so long that the prediction has run away: then the last one known.
   const bool lost = !estimating_ || !plausible(lqg_.dcm().norm());
   if (take(measurement) || lost) {
@@ -172,6 +210,7 @@ const WalkingTargets& WalkingEngine::update(const Measurement& measurement) {
   adjusting_ = false;
   if (single) {
     polygon_ = engine::support_polygon(sole_, measured_.feet[index(stance_.side)]);
+    settle_stance_foot();
     adjust();
     move_swing_foot();
   } else {
@@ -186,6 +225,13 @@ const WalkingTargets& WalkingEngine::update(const Measurement& measurement) {
   com_reference_ = plan_.advance_com(com_reference_, parameters_.tick, omega_);
   machine_.pass(parameters_.tick);
   return targets_;
+}
+
+void WalkingEngine::settle_stance_foot() {
+  // A foot that landed on its edge comes down when the weight comes onto it, in a hard step after
+  // the other foot has left. One that tips up again in a push does not lift the ground.
+  double& height = standing_[index(stance_.side)].position.z();
+  height = std::min(height, measured_.feet[index(stance_.side)].position.z());
 }
 
 void WalkingEngine::recover() {
@@ -223,11 +269,9 @@ void WalkingEngine::react(Transition transition) {
       begin_shift();
       break;
     case Transition::lift_off:
+      if (waiting_ && steps_before_change_ == 0) retune();
       stance_ = measured(machine_.support_side());
       standing_ = measured_.feet;
-      // Both have stood for a while: a foot that has just landed may still stand on its edge.
-      ground_.learn(standing_[index(other(stance_.side))].position,
-                    standing_[index(stance_.side)].position);
       nominal_t_ss_ = machine_.t_ss();
       plan_steps(stance_, 0);
       swing_goal_ = steps_[0];
@@ -236,6 +280,9 @@ void WalkingEngine::react(Transition transition) {
       break;
     case Transition::landing:
       landed_ = measured(other(machine_.support_side()));
+      // From two places where a foot has stood for a while: one that lands does so on its edge.
+      ground_.learn(standing_[index(landed_.side)].position,
+                    standing_[index(stance_.side)].position);
       standing_[index(landed_.side)] = measured_.feet[index(landed_.side)];
       if (list_next_ < list_size_) ++list_next_;
       recovering_ = recovering_ && machine_.ends_standing();
@@ -246,6 +293,7 @@ void WalkingEngine::react(Transition transition) {
         machine_.step_again();
       }
       coming_ = {coming_[1], pattern_};
+      if (steps_before_change_ > 0) --steps_before_change_;
       machine_.set_times(coming_[0].times);
       break;
     case Transition::stand:
@@ -276,7 +324,9 @@ bool WalkingEngine::stands_side_by_side() const {
   // More than a body misses its footholds by.
   constexpr double most_distance = 0.02;  // [m]
   constexpr double most_turn = 0.1;       // [rad]
-  const Footstep wanted = next_footstep(stance_, pattern_);
+  // Not as far apart as parameters that are still to come would have them.
+  const StepPattern& rest = waiting_ ? step_pattern({}, reach_, parameters_) : pattern_;
+  const Footstep wanted = next_footstep(stance_, rest);
   return (landed_.position - wanted.position).norm() < most_distance &&
          std::abs(std::remainder(landed_.yaw - wanted.yaw, 2.0 * std::numbers::pi)) < most_turn;
 }
@@ -359,7 +409,7 @@ void WalkingEngine::adjust() {
   const double planned_t_ss = machine_.t_ss();
   // A recovery may begin with a step shorter than that: its place is found in its first tick.
   const bool under_way = machine_.time() > 0.0;
-  if (under_way && machine_.single_support_left() <= parameters_.step_freeze) {
+  if (under_way && machine_.single_support_left() <= parameters_.step_freeze && !take_anew()) {
     steps_[0] = swing_goal_;
   } else {
     StepSituation now = situation(planned_);
@@ -384,6 +434,38 @@ void WalkingEngine::adjust() {
   plan_reference();
 }
 
+bool WalkingEngine::take_anew() {
+  const double left = machine_.single_support_left();
+  if (left <= 0.0 || !parameters_.strategies.step || !parameters_.strategies.time) return false;
+  StepSituation now = situation(planned_);
+  lean_on_ankle(now, left);
+  const StepAdjustment wanted = adjust_step(now, left, omega_, step_reach(), parameters_);
+  const double off = (wanted.step.position - swing_goal_.position).norm();
+  if (off <= parameters_.step_anew) return false;
+  const double passed = machine_.time();
+  const double latest = nominal_t_ss_ + parameters_.time_limit - passed;
+  const double needed = swing_time(now, left, latest);
+  if (needed <= parameters_.step_freeze) return false;
+  machine_.set_t_ss(passed + needed);
+  swing_.retarget(landing_pose(swing_goal_), passed, passed + needed);
+  swing_.lift(parameters_.swing_height);
+  return true;
+}
+
+double WalkingEngine::swing_time(const StepSituation& now, double earliest, double latest) const {
+  // The later, the farther away is the foothold: each look comes nearer to the time that fits.
+  constexpr int looks = 4;
+  const FootTarget foot = swing_.at(machine_.time());
+  double needed = earliest;
+  for (int i = 0; i < looks && needed < latest; ++i) {
+    const Footstep to = adjust_step(now, needed, omega_, step_reach(), parameters_).step;
+    needed = std::clamp(least_time(to.position - foot.position.head<2>(), foot.velocity.head<2>(),
+                                   needed, parameters_.swing_acceleration),
+                        earliest, latest);
+  }
+  return needed;
+}
+
 void WalkingEngine::lean_on_ankle(StepSituation& now, double left) const {
   if (!parameters_.strategies.ankle || parameters_.ankle_share == 0.0) return;
   const auto foothold_error = [&](const Vec2& foothold) -> Vec2 {
@@ -400,14 +482,16 @@ void WalkingEngine::lean_on_ankle(StepSituation& now, double left) const {
 
 void WalkingEngine::adjust_step_time(StepSituation now, double share) {
   const double passed = machine_.time();
-  const double earliest = std::max({nominal_t_ss_ - parameters_.time_limit, parameters_.least_t_ss,
-                                    passed + parameters_.step_freeze});
+  double earliest = std::max({nominal_t_ss_ - parameters_.time_limit, parameters_.least_t_ss,
+                              passed + parameters_.step_freeze});
   const double latest = std::max(nominal_t_ss_ + parameters_.time_limit, earliest);
-  const double nominal = std::clamp(nominal_t_ss_, earliest, latest);
+  double nominal = std::clamp(nominal_t_ss_, earliest, latest);
   double wanted = nominal;
   if (parameters_.strategies.step) {
     lean_on_ankle(now, nominal - passed);
     if (adjust_step(now, nominal - passed, omega_, step_reach(), parameters_).adjusted) {
+      earliest = passed + swing_time(now, earliest - passed, latest - passed);
+      nominal = std::max(nominal, earliest);
       wanted = passed + adjust_time(now, nominal - passed, earliest - passed, latest - passed,
                                     omega_, step_time_reach());  // (12')
     }
@@ -437,9 +521,11 @@ void WalkingEngine::move_swing_foot() {
   const Vec2 way = goal.position - here;
   const double most = parameters_.swing_speed * left / 1.875;
   if (way.norm() > most) goal.position = here + way * (most / way.norm());
-  if (goal.position != swing_goal_.position || goal.yaw != swing_goal_.yaw ||
+  const FootPose landing = landing_pose(goal);
+  const bool lower = left > 0.0 && landing.position.z() != swing_.landing_height();
+  if (goal.position != swing_goal_.position || goal.yaw != swing_goal_.yaw || lower ||
       machine_.t_ss() != swing_.duration()) {
-    swing_.retarget(landing_pose(goal), time, machine_.t_ss());
+    swing_.retarget(landing, time, machine_.t_ss());
     swing_goal_ = goal;
   }
 }
@@ -497,12 +583,44 @@ void WalkingEngine::use_hip() {
       hip_.zmp_shift() * (parameters_.mass * parameters_.gravity / parameters_.hip.inertia);
 }
 
+FootholdRegion WalkingEngine::reachable_footholds() const {
+  if (machine_.state() != WalkingState::single_support) return {};
+  return in_world(step_reach().polygon(stance_.side), stance_);
+}
+
+FootholdRegion WalkingEngine::foothold_demand() const {
+  if (machine_.state() != WalkingState::single_support) return {};
+  std::array<Vec2, ConvexPolygon::capacity> zmp{stance_.position};
+  std::size_t corners = 1;
+  if (parameters_.strategies.ankle) {
+    corners = polygon_.size();
+    for (std::size_t i = 0; i < corners; ++i) zmp[i] = polygon_.vertex(i);
+  }
+  const double left = std::max(machine_.single_support_left(), 0.0);
+  return capturing_footholds(situation(steps_[0]),
+                             {left, machine_.t_ds(), omega_, std::span(zmp).first(corners),
+                              &capture_.polygon(other(stance_.side), parameters_.strategies.time)});
+}
+
+std::size_t WalkingEngine::swing_path(std::span<Vec3> points) const {
+  const double left = machine_.single_support_left();
+  if (machine_.state() != WalkingState::single_support || left <= 0.0 || points.size() < 2)
+    return 0;
+  const double between = left / static_cast<double>(points.size() - 1);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i] = swing_.at(machine_.time() + static_cast<double>(i) * between).position;
+  }
+  return points.size();
+}
+
 void WalkingEngine::publish(const LqgReference& reference) {
   WalkingTargets& t = targets_;
   t.state = machine_.state();
   t.support_side = machine_.support_side();
   t.phase_time = machine_.time();
   t.t_ss = machine_.t_ss();
+  const bool single = machine_.state() == WalkingState::single_support;
+  t.planned_t_ss = single ? nominal_t_ss_ : machine_.t_ss();
   t.t_ds = machine_.t_ds();
   t.step_count = machine_.landings();
   t.recovering = recovering_;
@@ -523,7 +641,7 @@ void WalkingEngine::publish(const LqgReference& reference) {
     foot.position = standing_[index(side)].position;
     foot.yaw = standing_[index(side)].yaw;
   }
-  if (machine_.state() == WalkingState::single_support) {
+  if (single) {
     t.feet[index(other(machine_.support_side()))] = swing_.at(machine_.time());
   }
   const FootTarget& left = t.feet[index(Side::left)];

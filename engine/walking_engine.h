@@ -1,9 +1,11 @@
 // The one door of the engine: a measurement goes in, targets come out.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "engine/capture_region.h"
+#include "engine/footholds.h"
 #include "engine/footstep_planner.h"
 #include "engine/ground_slope.h"
 #include "engine/hip_strategy.h"
@@ -17,6 +19,7 @@
 #include "engine/step_adjuster.h"
 #include "engine/support_polygon.h"
 #include "engine/swing.h"
+#include "engine/tuning.h"
 #include "engine/walking_targets.h"
 
 namespace stagger::engine {
@@ -55,12 +58,22 @@ class WalkingEngine {
   /// the step under way and the one after it are taken as planned: the CoM is already on its way to
   /// them, and would have to jump for others. In double support that is the step that comes next.
   void walk(const WalkCommand& command);
-  /// Takes these steps, in world coordinates, and stands on the last two. Takes all or none.
-  StepListError follow(std::span<const Footstep> steps);
+  /// Takes these steps, in world coordinates, and stands on the last two. Takes all or none; the
+  /// one that is not taken is told in `refused`, where somebody wants to know.
+  StepListError follow(std::span<const Footstep> steps, std::size_t* refused = nullptr);
   /// Comes to rest on both feet, side by side: one more whole step; one more than that from the
   /// second half of a swing on, and again when the last one had to be adjusted.
   void stop();
   void set_strategies(const Strategies& strategies) { parameters_.strategies = strategies; }
+
+  /// Goes over to other parameters, but for the strategies, which stay as they are. At rest it does
+  /// so at once. In mid-walk the steps that walk() would keep are taken as planned, and the others
+  /// in the new gait: all of the parameters change together, where the first of those lifts off. A
+  /// list of steps is walked to its end as it was accepted. A newer change replaces one that waits.
+  /// False, and nothing has changed, when they are of another body: see same_body().
+  [[nodiscard]] bool change(const Tuning& tuning);
+  /// A change waits for its step.
+  bool change_waits() const { return waiting_.has_value(); }
 
   /// One control period. A measurement that cannot be (a NaN, an infinity, anything beyond 1e6)
   /// is not used: without CoM or its velocity the filter only predicts, and feet and loads count as
@@ -77,8 +90,19 @@ class WalkingEngine {
   const CaptureRegion& capture_region() const { return capture_; }
   const Lqg& lqg() const { return lqg_; }
 
+  // For whoever shows what the engine does: asked for, not part of the tick.
+  /// Where the leg can put the foot down that is in the air; empty while none is.
+  FootholdRegion reachable_footholds() const;
+  /// Where that foot has to land, at the time that is planned now, for a fall to be avoidable.
+  FootholdRegion foothold_demand() const;
+  /// The way that it has before it, from here to touchdown in equal times [m]; writes as many
+  /// points as there is room for, or none while no foot is in the air. Returns how many.
+  std::size_t swing_path(std::span<Vec3> points) const;
+
  private:
   bool take(const Measurement& measurement);
+  /// The ground is where the stance foot was lowest since the other one left.
+  void settle_stance_foot();
   /// Steps when the robot stands and the DCM is lost otherwise.
   void recover();
   void react(Transition transition);
@@ -87,11 +111,20 @@ class WalkingEngine {
   /// From this DCM to one over the middle of the feet [m].
   void begin_rest(const Vec2& dcm);
   void set_pattern(const WalkCommand& command, std::size_t kept);
+  /// Coming landings that a new command leaves as they are planned.
+  std::size_t committed_steps() const;
+  /// Goes over to the parameters that wait.
+  void retune();
   /// Pattern of the i-th landing from now.
   const StepPattern& pattern(std::size_t i) const { return i < 2 ? coming_[i] : pattern_; }
   void plan_steps(const Footstep& first_stance, std::size_t first);
   void plan_reference();
   void adjust();
+  /// In the part of the swing in which steps stay as they are: whether this one must not, since it
+  /// lands far from where it would catch the DCM. It then has as much time left as it needs.
+  bool take_anew();
+  /// Time left that the swing foot needs for the step that is right by then, in that range [s].
+  double swing_time(const StepSituation& now, double earliest, double latest) const;
   /// Goes `share` of the way to the time that the step should take.
   void adjust_step_time(StepSituation now, double share);
   /// Fills in the ankle's part of the catch, `left` before touchdown [s].
@@ -122,8 +155,11 @@ class WalkingEngine {
   Lqg lqg_;
   HipStrategy hip_;
   HipAid hip_aid_;
-  StepPattern pattern_;                ///< of the present command
-  std::array<StepPattern, 2> coming_;  ///< of the next two landings, some still of an older one
+  std::optional<Tuning> waiting_;        ///< the change to come
+  std::size_t steps_before_change_ = 0;  ///< landings still to come with the present parameters
+  WalkCommand wish_;                     ///< the command, before it is cut to the limits
+  StepPattern pattern_;                  ///< of the present command
+  std::array<StepPattern, 2> coming_;    ///< of the next two landings, some still of an older one
   std::array<Footstep, max_listed_steps> list_;
   std::size_t list_size_ = 0;
   std::size_t list_next_ = 0;  ///< the step that is under way or comes next

@@ -22,9 +22,10 @@ inline constexpr std::size_t preview_steps = 4;
 struct WalkingTargets {
   WalkingState state = WalkingState::idle;
   Side support_side = Side::left;  ///< stance foot; in double support the foot that the ZMP leaves
-  double phase_time = 0.0;  ///< t of eq. (1): since the start of this step's single support [s]
-  double t_ss = 0.0;        ///< single support duration of this step, adjusted [s]
-  double t_ds = 0.0;        ///< double support duration of this step [s]
+  double phase_time = 0.0;    ///< t of eq. (1): since the start of this step's single support [s]
+  double t_ss = 0.0;          ///< single support duration of this step, adjusted [s]
+  double planned_t_ss = 0.0;  ///< the same before adjustment [s]
+  double t_ds = 0.0;          ///< double support duration of this step [s]
   std::uint64_t step_count = 0;  ///< steps landed since the engine was made
   bool recovering = false;       ///< it steps because standing would have been a fall
 

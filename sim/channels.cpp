@@ -53,6 +53,19 @@ Channel foot(const char* name, const char* meaning, PerFoot<FootPose> Frame::*me
 const std::vector<Component> footstep_components{
     {"x", "m"}, {"y", "m"}, {"yaw", "rad"}, {"side", "1"}};
 
+Channel region(const char* name, const char* meaning, engine::FootholdRegion Frame::*member) {
+  return {name,
+          "world",
+          meaning,
+          components({"x", "y"}, "m"),
+          engine::FootholdRegion::capacity,
+          [member](const Frame& f, Values& out) {
+            for (const Vec2& corner : (f.*member).view()) {
+              out.insert(out.end(), {corner.x(), corner.y()});
+            }
+          }};
+}
+
 void append(const Footstep& step, Values& out) {
   out.insert(out.end(), {step.position.x(), step.position.y(), step.yaw,
                          static_cast<double>(engine::index(step.side))});
@@ -89,6 +102,8 @@ std::vector<Channel> make_channels(const std::vector<std::string>& joint_names) 
   table.push_back(
       scalar("phase_time", "s", "time since lift-off of this step", &Frame::phase_time));
   table.push_back(scalar("t_ss", "s", "single support duration of this step", &Frame::t_ss));
+  table.push_back(scalar("planned_t_ss", "s", "single support duration before it was adjusted",
+                         &Frame::planned_t_ss));
   table.push_back(scalar("t_ds", "s", "double support duration of this step", &Frame::t_ds));
   table.push_back(scalar("step_count", "1", "steps landed", &Frame::step_count));
   table.push_back(scalar("recovering", "1",
@@ -100,6 +115,8 @@ std::vector<Channel> make_channels(const std::vector<std::string>& joint_names) 
       vector<3>("com_velocity", "m/s", "velocity of the centre of mass", &Frame::com_velocity));
   table.push_back(vector<2>("dcm", "m", "divergent component of motion", &Frame::dcm));
   table.push_back(vector<2>("zmp", "m", "zero moment point from the contact forces", &Frame::zmp));
+  table.push_back(vector<3>("angular_momentum", "N m s",
+                            "angular momentum about the centre of mass", &Frame::angular_momentum));
   table.push_back(vector<3>("com_sensed", "m",
                             "centre of mass as control knows it, about the support foot",
                             &Frame::com_sensed));
@@ -161,6 +178,36 @@ std::vector<Channel> make_channels(const std::vector<std::string>& joint_names) 
                      for (std::size_t i = 0; i < f.support_polygon_count; ++i) {
                        const Vec2& corner = f.support_polygon[i];
                        out.insert(out.end(), {corner.x(), corner.y()});
+                     }
+                   }});
+  table.push_back(region("reachable_footholds",
+                         "where the foot in the air can be put down, counter-clockwise; empty "
+                         "unless in single support",
+                         &Frame::reachable_footholds));
+  table.push_back(region("capture_region",
+                         "where that foot has to land at the planned time for a fall to be "
+                         "avoidable, counter-clockwise; whether the leg gets there is left aside",
+                         &Frame::capture_region));
+  table.push_back({"swing_path", "world",
+                   "the way of the foot in the air from here to touchdown, in equal times",
+                   components({"x", "y", "z"}, "m"), swing_path_points,
+                   [](const Frame& f, Values& out) {
+                     for (std::size_t i = 0; i < f.swing_path_count; ++i) {
+                       const Vec3& point = f.swing_path[i];
+                       out.insert(out.end(), {point.x(), point.y(), point.z()});
+                     }
+                   }});
+  table.push_back({"ground_forces",
+                   "world",
+                   "forces of the ground on the robot in the tick before, each with its point; of "
+                   "more than 16 the first ones",
+                   {{"x", "m"}, {"y", "m"}, {"z", "m"}, {"fx", "N"}, {"fy", "N"}, {"fz", "N"}},
+                   max_contacts,
+                   [](const Frame& f, Values& out) {
+                     for (std::size_t i = 0; i < f.ground_force_count; ++i) {
+                       const auto& [point, force] = f.ground_forces[i];
+                       out.insert(out.end(), {point.x(), point.y(), point.z(), force.x(), force.y(),
+                                              force.z()});
                      }
                    }});
   table.push_back(vector<3>("push_force", "N", "sum of the pushes that act", &Frame::push_force));

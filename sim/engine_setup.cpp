@@ -29,6 +29,7 @@ engine::Parameters engine_parameters(const Robot& robot, PlantKind plant,
   p.foot_half_width = 0.5 * d.feet[0].sole.width;
   p.foot_clearance *= scale.length;
   p.max_step_length = d.walk.max_step_length_m;
+  p.max_step_back = d.walk.max_step_back_m;
   p.min_step_width = d.walk.min_step_width_m;
   p.max_step_width = d.walk.max_step_width_m;
   p.strategies = strategies;
@@ -60,8 +61,14 @@ engine::Parameters engine_parameters(const Robot& robot, PlantKind plant,
   p.contact_load *= scale.mass;
   p.landing_patience *= time;
   if (plant == PlantKind::bullet) {
+    const WholeBodyGains gains = whole_body_gains(robot);
     // The whole-body controller keeps its corner forces this far inside the sole.
-    p.sole_margin = whole_body_gains(robot).sole_margin;
+    p.sole_margin = gains.sole_margin;
+    // More takes more torque of the hip than it has. With it a push in the last part of a step can
+    // still change that step: kasaei then takes 0.8 m/s to the side of the swing foot, and 0.6 when
+    // it has to land first.
+    p.swing_acceleration = gains.swing_acceleration_limit;
+    p.step_anew = 0.1 * scale.length;
     p.ankle_reach = p.ankle_reach.cwiseMin(ankle_zmp_reach(robot, p.gravity));
   }
   return p;

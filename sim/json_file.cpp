@@ -14,12 +14,7 @@ namespace {
 
 constexpr std::size_t max_depth = 32;
 
-struct Position {
-  std::size_t line;
-  std::size_t column;
-};
-
-Position position_of(std::string_view text, std::size_t offset) {
+TextPosition text_position_at(std::string_view text, std::size_t offset) {
   const std::string_view before = text.substr(0, std::min(offset, text.size()));
   const auto lines = static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
   const std::size_t last = before.rfind('\n');
@@ -202,19 +197,23 @@ nlohmann::json parse_json(std::string_view text) {
     return nlohmann::json::parse(CountingIterator(text.data(), &furthest),
                                  CountingIterator(text.data() + text.size(), &furthest), watch);
   } catch (const nlohmann::json::parse_error& error) {
-    const Position at = position_of(text, error.byte > 0 ? error.byte - 1 : 0);
+    const TextPosition at = text_position_at(text, error.byte > 0 ? error.byte - 1 : 0);
     throw JsonSyntaxError(at.line, at.column, plain_message(error.what()));
   } catch (const nlohmann::json::exception& error) {  // a number beyond every double
-    const Position at = position_of(text, consumed());
+    const TextPosition at = text_position_at(text, consumed());
     throw JsonSyntaxError(at.line, at.column, plain_message(error.what()));
   } catch (const Stop& stop) {
-    const Position at = position_of(text, consumed());
+    const TextPosition at = text_position_at(text, consumed());
     throw JsonSyntaxError(at.line, at.column, stop.why);
   }
 }
 
+TextPosition position_of(std::string_view text, std::string_view pointer) {
+  return text_position_at(text, Locator(text).find(split_pointer(pointer)));
+}
+
 std::size_t line_of(std::string_view text, std::string_view pointer) {
-  return position_of(text, Locator(text).find(split_pointer(pointer))).line;
+  return position_of(text, pointer).line;
 }
 
 void read_json_file(const std::filesystem::path& file, const JsonReader::Fields& fields) {

@@ -25,6 +25,16 @@ class JsonSyntaxError : public std::runtime_error {
 /// deeper than 32. Throws JsonSyntaxError.
 nlohmann::json parse_json(std::string_view text);
 
+/// A place in a text; lines and columns count from 1.
+struct TextPosition {
+  std::size_t line = 1;
+  std::size_t column = 1;
+};
+
+/// Place in valid JSON text at which the value at `pointer` begins, or, when there is no such
+/// value, the innermost value around it.
+TextPosition position_of(std::string_view text, std::string_view pointer);
+
 /// Line of valid JSON text on which the value at `pointer` begins, or, when there is no such value,
 /// the innermost value around it.
 std::size_t line_of(std::string_view text, std::string_view pointer);

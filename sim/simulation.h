@@ -3,6 +3,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +21,7 @@
 #include "sim/plant/terrain.h"
 #include "sim/robot/robot.h"
 #include "sim/state_hash.h"
+#include "sim/world_parameters.h"
 
 namespace stagger::sim {
 
@@ -26,12 +30,27 @@ struct SimulationConfig {
   PlantKind plant = PlantKind::bullet;
   std::uint64_t seed = 1;
   engine::Strategies strategies;
-  SenseParameters senses;     ///< of the full body; the pendulum has none of them
-  TerrainParameters terrain;  ///< the LIPM knows flat ground alone, whatever it is made of
-  PhysicsParameters physics;  ///< of the full body; its dt is the tick
+  SenseParameters senses;      ///< of the full body; the pendulum has none of them
+  TerrainParameters terrain;   ///< the LIPM knows flat ground alone, whatever it is made of
+  PhysicsParameters physics;   ///< of the full body; its dt is the tick
+  ParameterValues parameters;  ///< what is to differ from all that (parameter_table.h)
 };
 
-enum class EventKind : std::uint8_t { step, push_started, push_done, push_cancelled, fall };
+enum class EventKind : std::uint8_t {
+  step,
+  adjustment,  ///< of a step: it landed elsewhere or at another time than planned
+  push_started,
+  push_done,
+  push_cancelled,
+  strategies,  ///< others may act from now on
+  parameters,  ///< a change has taken effect
+  fall
+};
+
+/// A step is told of as adjusted when the engine moved it by more than this [m] or made it come
+/// this much sooner or later [s]. kasaei, undisturbed, stays below.
+inline constexpr double told_adjustment_m = 0.02;
+inline constexpr double told_adjustment_s = 0.02;
 
 /// Something that happened at one tick. Values are named numbers, the text is for people.
 struct Event {
@@ -42,13 +61,21 @@ struct Event {
   std::vector<std::pair<std::string, double>> values;
 };
 
+/// A list of steps that cannot be walked.
+class StepListRefused : public std::invalid_argument {
+ public:
+  StepListRefused(const std::string& why, std::optional<std::size_t> at)
+      : std::invalid_argument(why), step(at) {}
+  std::optional<std::size_t> step;  ///< the first that cannot be; none: it is not standing
+};
+
 class Simulation {
  public:
   /// Physics and control period [s].
   static constexpr double tick_s = 0.001;
 
   /// Throws std::invalid_argument when the configuration is not valid: see validate() of the
-  /// terrain.
+  /// terrain and check_parameters().
   explicit Simulation(SimulationConfig config);
 
   /// Runs one tick and returns its frame: the state at the tick's beginning, the targets made from
@@ -63,6 +90,15 @@ class Simulation {
   /// Finish the step that is under way and stand.
   void stop_walking();
   void set_strategies(const engine::Strategies& strategies);
+  /// Takes these steps, in the true world, and stands; from standing only. All or none: throws
+  /// StepListRefused.
+  void follow(std::span<const Footstep> steps);
+  /// Other parameters: of `values` those that a living world can change, in place of all such
+  /// values so far; the others are not looked at. They take effect as the table says. Throws
+  /// std::invalid_argument, and nothing has changed, when they are not valid.
+  void set_parameters(const ParameterValues& values);
+  /// The values that are in effect. config().parameters are those asked for.
+  const ParameterValues& active_parameters() const { return active_; }
 
   /// Adds a push (validated against the robot's links: throws std::invalid_argument for an unknown
   /// link) and returns its id.
@@ -85,13 +121,22 @@ class Simulation {
 
  private:
   void note_landing(const engine::WalkingTargets& targets);
+  void note_adjustment(const engine::WalkingTargets& targets, const Vec2& landed);
+  void note_parameters();
   void note_pushes();
   void note_fall();
   void fill_frame(const engine::WalkingTargets& targets);
+  void fill_regions();
   void emit(EventKind kind, std::string text,
             std::vector<std::pair<std::string, double>> values = {});
+  /// Between two ticks: as of the next one.
+  void emit_now(EventKind kind, std::string text,
+                std::vector<std::pair<std::string, double>> values);
 
   SimulationConfig config_;
+  WorldParameters parameters_;  ///< those asked for
+  ParameterValues active_;
+  bool changing_ = false;  ///< the two differ
   std::vector<Channel> channels_;
   std::unique_ptr<Plant> plant_;
   engine::WalkingEngine engine_;

@@ -21,6 +21,15 @@ struct WorldShift {
     return result;
   }
 
+  /// The way back.
+  WorldShift inverse() const {
+    WorldShift result;
+    result.yaw = -yaw;
+    result.shift.head<2>() = -engine::rotated(engine::Vec2(shift.head<2>()), -yaw);
+    result.shift.z() = -shift.z();
+    return result;
+  }
+
   engine::Vec2 applied_to(const engine::Vec2& point) const {
     return engine::rotated(point, yaw) + shift.head<2>();
   }

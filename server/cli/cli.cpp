@@ -4,15 +4,21 @@
 #include <exception>
 #include <functional>
 #include <iostream>
+#include <optional>
 #include <sstream>
 
+#include "server/cli/campaign.h"
 #include "server/cli/commands.h"
+#include "server/cli/settings.h"
+#include "server/http/security.h"
 
 namespace stagger::server {
 namespace {
 
 // CLI::Range lets NaN pass.
 CLI::Validator between(double low, double high) {
+  std::ostringstream range;
+  range << "FLOAT in [" << low << " - " << high << "]";
   return CLI::Validator(
       [low, high](std::string& text) -> std::string {
         double value = 0.0;
@@ -21,7 +27,7 @@ CLI::Validator between(double low, double high) {
         allowed << text << " is not a number from " << low << " to " << high;
         return allowed.str();
       },
-      "FLOAT");
+      range.str());
 }
 
 void add_world(CLI::App& command, WorldOptions& world) {
@@ -48,12 +54,74 @@ void add_world(CLI::App& command, WorldOptions& world) {
                   "flat, slope:DEG, slope:DEG:UPHILL_DEG, uneven:METRES, or a trial's terrain as "
                   "JSON")
       ->capture_default_str();
+  command
+      .add_option("--parameter", world.parameters,
+                  "name=value, may be given again: in place of the robot's own (see `parameters`)")
+      ->allow_extra_args(false);
 }
 
 void add_walk(CLI::App& command, engine::WalkCommand& walk) {
   command.add_option("--vx", walk.vx, "Forward [m/s]")->check(between(-0.5, 0.5));
   command.add_option("--vy", walk.vy, "To the left [m/s]")->check(between(-0.3, 0.3));
   command.add_option("--wz", walk.wz, "Turn to the left [rad/s]")->check(between(-0.5, 0.5));
+}
+
+/// Takes only texts for which `why_not` has nothing to say; `form` is how they look.
+CLI::Validator unless(std::optional<std::string> (*why_not)(const std::string&), const char* form) {
+  return CLI::Validator(
+      [why_not](std::string& text) -> std::string {
+        const auto why = why_not(text);
+        return why ? "\"" + text + "\": " + *why : "";
+      },
+      form);
+}
+
+CLI::App* add_serve(CLI::App& app, ServeOptions& serve) {
+  CLI::App* command = app.add_subcommand("serve", "Serve the dashboard, the API and the stream");
+  add_world(*command, serve.world);
+  command->get_option("--robot")->capture_default_str();
+  command->add_option("--host", serve.host, "Address to listen on")->capture_default_str();
+  command->add_option("--port", serve.port, "Port to listen on; 0 for any free one")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  command->add_flag("--stand", serve.stand, "Stand instead of stepping in place at once");
+  command->add_option("--api-key-file", serve.api_key_file,
+                      "File with the key that commands need (or STAGGER_API_KEY holds it); "
+                      "without one, only this machine may be served");
+  command->add_option("--read-only-key-file", serve.read_only_key_file,
+                      "File with a key that may look only (or STAGGER_READ_ONLY_KEY holds it)");
+  command
+      ->add_option("--allow-host", serve.allow_hosts,
+                   "Name by which the server is reached too, as behind a proxy; may be repeated")
+      ->check(unless(why_no_host, "NAME[:PORT]"));
+  command
+      ->add_option("--allow-origin", serve.allow_origins,
+                   "Origin of pages elsewhere that may use the API; may be repeated")
+      ->check(unless(why_no_origin, "http[s]://NAME[:PORT]"));
+  command->add_option("--stream-clients", serve.stream_clients, "Most stream clients at a time")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command
+      ->add_option("--command-rate", serve.command_rate,
+                   "Commands a second from one address; bursts of twice that [1/s]")
+      ->check(between(1.0, 100000.0))
+      ->capture_default_str();
+  command->add_option("--data", serve.data,
+                      "Folder of robots, recordings and presets (or STAGGER_DATA)");
+  command->add_option("--quota-gb", serve.quota_gb, "Most that recordings may take [GB]")
+      ->check(between(0.001, 1e6))
+      ->capture_default_str();
+  command->add_option("--log-level", serve.log_level, "What is told on standard error")
+      ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
+      ->capture_default_str();
+  command
+      ->add_option("--config", serve.config,
+                   "File of settings (JSON); environment and command line go before it")
+      ->configurable(false);
+  command
+      ->add_flag("--check-config", serve.check_config, "Print the resulting configuration and exit")
+      ->configurable(false);
+  return command;
 }
 
 CLI::App* add_limits(CLI::App& app, LimitsOptions& limits) {
@@ -120,23 +188,13 @@ int run_command_line(int argc, char** argv) {
   app.add_option("--robots-dir", robots_folder, "Folder of robots (or STAGGER_ROBOTS)");
   app.add_option("--web-dir", web_folder, "Folder of the built dashboard (or STAGGER_WEB)");
 
+  std::string data_folder;
+  app.add_option("--data", data_folder,
+                 "Folder of what users make: robots, recordings, presets (or STAGGER_DATA; "
+                 "~/.local/share/stagger)");
+
   ServeOptions serve;
-  CLI::App* serve_app = app.add_subcommand("serve", "Serve the dashboard, the API and the stream");
-  add_world(*serve_app, serve.world);
-  serve_app->get_option("--robot")->capture_default_str();
-  serve_app->add_option("--host", serve.host, "Address to listen on")->capture_default_str();
-  serve_app->add_option("--port", serve.port, "Port to listen on; 0 for any free one")
-      ->check(CLI::Range(0, 65535))
-      ->capture_default_str();
-  serve_app->add_flag("--stand", serve.stand, "Stand instead of stepping in place at once");
-  serve_app->add_flag("--allow-remote", serve.allow_remote,
-                      "Allow an address that is not loopback; nobody is asked for a key");
-  serve_app->add_option("--stream-clients", serve.stream_clients, "Most stream clients at a time")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
-  serve_app->add_option("--log-level", serve.log_level)
-      ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
-      ->capture_default_str();
+  CLI::App* serve_app = add_serve(app, serve);
 
   RunOptions run;
   CLI::App* run_app = app.add_subcommand("run", "Walk without a server, as fast as possible");
@@ -157,6 +215,20 @@ int run_command_line(int argc, char** argv) {
   CLI::App* limits_app = add_limits(app, limits);
   limits.command = typed(argc, argv);
 
+  ParametersOptions parameters;
+  CLI::App* parameters_app =
+      app.add_subcommand("parameters", "List the parameters of a robot: values, ranges, meanings");
+  add_world(*parameters_app, parameters.world);
+  parameters_app->get_option("--robot")->capture_default_str();
+  parameters_app->add_flag("--json", parameters.json, "Print one JSON object");
+  ReplayOptions replay;
+  CLI::App* replay_app =
+      app.add_subcommand("replay", "Run a recording again and compare it tick by tick");
+  replay_app->add_option("file", replay.file, "Recording (MCAP)")->required();
+  replay_app->add_flag("--json", replay.json, "Print one JSON object");
+  CampaignOptions campaign;
+  CLI::App* campaign_app = add_campaign(app, campaign);
+
   RobotsOptions robots;
   CLI::App* robots_app = app.add_subcommand("robots", "List the robots");
   robots_app->add_flag("--json", robots.json, "Print one JSON object");
@@ -167,6 +239,10 @@ int run_command_line(int argc, char** argv) {
   check_app->add_option("urdf", check.urdf, "URDF of a biped")->required();
   check_app->add_option("--write", check.write, "Folder to write a robot's description to");
   check_app->add_flag("--json", check.json, "Print one JSON object");
+  check_app->add_flag("--load", check.load,
+                      "Check the robot.json beside the URDF too; it may say what is not found");
+  check_app->add_flag("--untrusted", check.untrusted,
+                      "A stranger's files: end when they cost much time or memory");
 
   PaperOptions paper;
   CLI::App* paper_app =
@@ -198,11 +274,19 @@ int run_command_line(int argc, char** argv) {
   try {
     if (paper_app->parsed()) return paper_command(paper);
     if (check_app->parsed()) return robots_check_command(check);
-    const Folders folders = find_folders(robots_folder, web_folder);
+    if (serve_app->parsed()) {
+      if (!apply_settings(*serve_app, serve.config)) return exit_usage;
+      serve.settings = settings_json(*serve_app);
+    }
+    const Folders folders =
+        find_folders(robots_folder, web_folder, serve.data.empty() ? data_folder : serve.data);
     if (serve_app->parsed()) return serve_command(serve, folders);
     if (run_app->parsed()) return run_command(run, folders);
     if (trial_app->parsed()) return trial_command(trial, folders);
+    if (parameters_app->parsed()) return parameters_command(parameters, folders);
+    if (replay_app->parsed()) return replay_command(replay, folders);
     if (limits_app->parsed()) return limits_command(limits, folders);
+    if (campaign_app->parsed()) return campaign_command(campaign, folders);
     return robots_command(robots, folders);
   } catch (const std::exception& error) {
     std::cerr << "stagger: " << error.what() << '\n';

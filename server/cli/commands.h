@@ -4,23 +4,28 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/parameters.h"
 #include "server/cli/folders.h"
+#include "server/json/json.h"
 #include "server/json/senses_json.h"
 #include "server/robot_library.h"
 #include "sim/simulation.h"
 
 namespace stagger::server {
 
+inline const sim::SenseParameters default_senses;
+
 /// The world that `serve` and `run` build.
 struct WorldOptions {
   std::string robot;
   std::string plant = "bullet";
   std::uint64_t seed = 1;
-  std::string state{name_of_state({})};
-  std::int64_t control_delay_ms = server::control_delay_ms({});
-  std::string terrain = "flat";  ///< as parse_terrain() reads it
+  std::string state{name_of_state(default_senses)};
+  std::int64_t control_delay_ms = server::control_delay_ms(default_senses);
+  std::string terrain = "flat";              ///< as parse_terrain() reads it
+  std::vector<std::string> parameters = {};  ///< name=value
 };
 
 struct ServeOptions {
@@ -28,9 +33,18 @@ struct ServeOptions {
   bool stand = false;
   std::string host = "127.0.0.1";
   int port = 8080;
-  bool allow_remote = false;
+  std::string api_key_file;        ///< empty: none
+  std::string read_only_key_file;  ///< empty: none
+  std::vector<std::string> allow_hosts;
+  std::vector<std::string> allow_origins;
   std::size_t stream_clients = 64;
+  std::string data;             ///< folder of what users make; empty: as find_folders() finds it
+  double quota_gb = 10.0;       ///< of recordings [GB]
+  double command_rate = 500.0;  ///< [1/s]
   std::string log_level = "info";
+  std::string config;         ///< file of settings; empty: none
+  bool check_config = false;  ///< print `settings` and exit
+  Json settings;              ///< what has come of command line, environment and file
 };
 
 struct RunOptions {
@@ -40,8 +54,18 @@ struct RunOptions {
   bool json = false;
 };
 
+struct ReplayOptions {
+  std::string file;
+  bool json = false;
+};
+
 struct TrialOptions {
   std::string spec;  ///< a file, or "-" for standard input
+};
+
+struct ParametersOptions {
+  WorldOptions world{.robot = "kasaei"};
+  bool json = false;
 };
 
 struct RobotsOptions {
@@ -52,6 +76,8 @@ struct RobotsCheckOptions {
   std::string urdf;
   std::string write;  ///< folder to write a description to; empty: none
   bool json = false;
+  bool load = false;       ///< the URDF's folder is to be a robot, by its own description
+  bool untrusted = false;  ///< the check itself may cost little
 };
 
 struct PaperOptions {
@@ -91,7 +117,7 @@ struct LimitsOptions {
 };
 
 /// The configuration; its robot is null, after a message on standard error, when there is none of
-/// that name or the terrain cannot be.
+/// that name, or when the terrain or the parameters cannot be.
 sim::SimulationConfig world_of(const WorldOptions& options, RobotLibrary& robots);
 
 /// Serves the dashboard, the API and the stream until SIGTERM or SIGINT.
@@ -100,6 +126,10 @@ int serve_command(const ServeOptions& options, const Folders& folders);
 int run_command(const RunOptions& options, const Folders& folders);
 /// One trial from its specification.
 int trial_command(const TrialOptions& options, const Folders& folders);
+/// Lists the parameters of a robot.
+int parameters_command(const ParametersOptions& options, const Folders& folders);
+/// Runs a recording again and compares every tick; exit_no when one differs.
+int replay_command(const ReplayOptions& options, const Folders& folders);
 /// Lists the robots.
 int robots_command(const RobotsOptions& options, const Folders& folders);
 /// Finds the biped in a URDF and tells what was found; exit_no for what cannot walk.

@@ -1,6 +1,4 @@
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
@@ -9,6 +7,7 @@
 
 #include "server/cli/cli.h"
 #include "server/cli/commands.h"
+#include "server/cli/interrupt.h"
 #include "server/cli/list.h"
 #include "server/cli/progress_line.h"
 #include "server/json/gait_json.h"
@@ -21,19 +20,6 @@ namespace stagger::server {
 namespace {
 
 using sim::Range;
-
-// Read by other threads than the one that the signal stops.
-std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-/// Ctrl-C asks the search to stop; a second one ends the process at once.
-void listen_for_interrupts() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { interrupted = true; };
-  action.sa_flags = SA_RESETHAND;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
 
 engine::Strategies read_strategies_option(const std::string& text) {
   if (text == "none") return {.ankle = false, .hip = false, .step = false, .time = false};
@@ -116,6 +102,7 @@ sim::LimitsSpec spec_of(const LimitsOptions& options, const sim::SimulationConfi
   spec.trial.plant = world.plant;
   spec.trial.senses = world.senses;
   spec.trial.terrain = world.terrain;
+  spec.trial.parameters = world.parameters;
   spec.trial.walk = options.walk;
   spec.trial.strategies = read_strategies_option(options.strategies);
   spec.trial.settle_s = options.settle_s;
@@ -178,7 +165,7 @@ std::string today() {
 }  // namespace
 
 int limits_command(const LimitsOptions& options, const Folders& folders) {
-  RobotLibrary library(folders.robots);
+  RobotLibrary library(folders.robots, folders.uploaded_robots());
   const sim::SimulationConfig world = world_of(options.world, library);
   if (world.robot == nullptr) return exit_usage;
   const auto& robot = world.robot;
@@ -196,8 +183,8 @@ int limits_command(const LimitsOptions& options, const Folders& folders) {
       if (options.threads > 0) run.threads = options.threads;
       run.watch = [&](const sim::LimitsProgress& progress) {
         last = progress;
-        line.show(progress);
-        return !interrupted;
+        line.show([&](double elapsed_s) { return progress_text(progress, elapsed_s); });
+        return !interrupted();
       };
       limits = sim::find_limits(spec, robot, run);
     } catch (const sim::LimitsStopped&) {

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t most_numbers = 1000;
 
-[[noreturn]] void refuse(const std::string& option, const std::string& text,
-                         const std::string& allowed) {
+[[noreturn]] void refuse_item(const std::string& option, const std::string& text,
+                              const std::string& allowed) {
   throw std::invalid_argument(option + ": " + text + " is not " + allowed);
 }
 
@@ -34,7 +34,7 @@ double read_number(const std::string& option, const std::string& text, const sim
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value);
   if (error != std::errc() || stop != end || !range.holds(value)) {
-    refuse(option, '"' + text + '"', "a number, " + range.text());
+    refuse_item(option, '"' + text + '"', "a number, " + range.text());
   }
   return value;
 }
@@ -48,22 +48,22 @@ std::vector<double> read_number_list(const std::string& option, const std::strin
       numbers.push_back(read_number(option, part, range));
       continue;
     }
-    if (ends.size() != 3) refuse(option, '"' + part + '"', "a number or FROM:TO:STEP");
+    if (ends.size() != 3) refuse_item(option, '"' + part + '"', "a number or FROM:TO:STEP");
     const double from = read_number(option, ends[0], range);
     const double to = read_number(option, ends[1], range);
     const double step = read_number(option, ends[2], sim::Range::more_than(0.0));
-    if (to < from) refuse(option, '"' + part + '"', "FROM:TO:STEP with FROM up to TO");
+    if (to < from) refuse_item(option, '"' + part + '"', "FROM:TO:STEP with FROM up to TO");
     if ((to - from) / step >= static_cast<double>(most_numbers)) {
-      refuse(option, '"' + part + '"', "a list of at most 1000 numbers");
+      refuse_item(option, '"' + part + '"', "a list of at most 1000 numbers");
     }
     for (const double number : sim::ladder(from, to, step)) numbers.push_back(number);
   }
   if (numbers.size() > most_numbers)
-    refuse(option, '"' + text + '"', "a list of at most 1000 numbers");
+    refuse_item(option, '"' + text + '"', "a list of at most 1000 numbers");
   std::vector<double> sorted = numbers;
   std::sort(sorted.begin(), sorted.end());
   if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
-    refuse(option, '"' + text + '"', "a list of numbers that are all different");
+    refuse_item(option, '"' + text + '"', "a list of numbers that are all different");
   }
   return numbers;
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
+#include <string>
 
 #include "sim/experiment/limits.h"
 
@@ -15,7 +17,8 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  void show(const sim::LimitsProgress& progress);
+  /// Writes the text when it is time to; it is told the time since the beginning [s].
+  void show(const std::function<std::string(double)>& text);
   /// Takes the line off the terminal.
   void clear();
 
@@ -28,6 +31,12 @@ class ProgressLine {
   Clock::time_point start_ = Clock::now();
   Clock::time_point next_ = start_;
 };
+
+/// "[####......]"; `share` from 0 to 1.
+std::string progress_bar(double share);
+
+/// "1:05".
+std::string minutes_text(double seconds);
 
 /// "[####......] 0.35 m/s, 12 pushes still pass, 240 trials, at most 1:05 left".
 std::string progress_text(const sim::LimitsProgress& progress, double elapsed_s);

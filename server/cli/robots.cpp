@@ -9,7 +9,7 @@
 namespace stagger::server {
 
 int robots_command(const RobotsOptions& options, const Folders& folders) {
-  RobotLibrary library(folders.robots);
+  RobotLibrary library(folders.robots, folders.uploaded_robots());
   Json items = Json::array();
   for (const std::string& name : library.names()) {
     const auto robot = library.find(name);

@@ -1,6 +1,13 @@
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <cmath>
+#include <csignal>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
+#include <optional>
 #include <sstream>
 
 #include "server/cli/cli.h"
@@ -12,7 +19,7 @@
 namespace stagger::server {
 namespace {
 
-std::string fixed(double value, int digits) {
+std::string with_digits(double value, int digits) {
   std::ostringstream text;
   text << std::fixed << std::setprecision(digits) << value;
   return text.str();
@@ -78,13 +85,15 @@ void print(const sim::BipedFinding& found) {
   std::cout << found.urdf.string() << ": a biped, \"" << found.robot.name << "\"\n"
             << "  base " << biped.base << ", torso " << biped.torso << ", feet "
             << biped.feet[0].link << " and " << biped.feet[1].link << '\n'
-            << "  " << fixed(f.mass, 2) << " kg, CoM at " << fixed(f.com_height, 3) << " m, omega "
-            << fixed(f.omega, 2) << " 1/s, legs of " << fixed(f.leg_length, 3) << " m, stance "
-            << fixed(f.stance_width, 3) << " m wide\n"
-            << "  soles " << fixed(sole.length, 3) << " m x " << fixed(sole.width, 3)
-            << " m; the ankle moves the ZMP by +" << fixed(f.ankle_ahead, 3) << "/-"
-            << fixed(f.ankle_behind, 3) << " m ahead/behind, " << fixed(f.ankle_inward, 3) << '/'
-            << fixed(f.ankle_outward, 3) << " m inward/outward\n";
+            << "  " << with_digits(f.mass, 2) << " kg, CoM at " << with_digits(f.com_height, 3)
+            << " m, omega " << with_digits(f.omega, 2) << " 1/s, legs of "
+            << with_digits(f.leg_length, 3) << " m, stance " << with_digits(f.stance_width, 3)
+            << " m wide\n"
+            << "  soles " << with_digits(sole.length, 3) << " m x " << with_digits(sole.width, 3)
+            << " m; the ankle moves the ZMP by +" << with_digits(f.ankle_ahead, 3) << "/-"
+            << with_digits(f.ankle_behind, 3) << " m ahead/behind, "
+            << with_digits(f.ankle_inward, 3) << '/' << with_digits(f.ankle_outward, 3)
+            << " m inward/outward\n";
   for (const sim::Leg& leg : found.legs.leg) {
     std::cout << "  leg to " << leg.foot << ':';
     for (const sim::LegJoint& joint : leg.joints) {
@@ -93,8 +102,8 @@ void print(const sim::BipedFinding& found) {
     std::cout << '\n';
   }
   for (const sim::HoldingTorque& h : f.holding) {
-    std::cout << "  on one leg, " << h.joint << " holds " << fixed(h.needed, 1) << " of "
-              << fixed(h.limit, 1) << " N m\n";
+    std::cout << "  on one leg, " << h.joint << " holds " << with_digits(h.needed, 1) << " of "
+              << with_digits(h.limit, 1) << " N m\n";
   }
   std::cout << "  " << (found.quirks.empty() ? "no quirks" : "quirks:") << '\n';
   for (const sim::Quirk& quirk : found.quirks) {
@@ -102,25 +111,67 @@ void print(const sim::BipedFinding& found) {
   }
 }
 
+// A mesh of 32 MB as text takes 121 MB of address space and 1.5 s.
+constexpr rlim_t untrusted_memory = 2UL << 30U;  // [bytes]
+constexpr rlim_t untrusted_time = 20;            // of the processor [s]
+constexpr int untrusted_nice = 10;
+
+/// Whatever the files make of this process, it ends soon, and nobody else is out of memory or
+/// waits for the processor.
+void live_on_little() {
+  const auto limit = [](auto what, rlim_t most) {
+    const rlimit both{most, most};
+    setrlimit(what, &both);
+  };
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // whoever asked has gone
+  limit(RLIMIT_CORE, 0);
+#ifndef STAGGER_SANITIZED
+  // Sanitizers reserve terabytes, and are slow.
+  limit(RLIMIT_AS, untrusted_memory);
+  limit(RLIMIT_CPU, untrusted_time);
+#endif
+  setpriority(PRIO_PROCESS, 0, untrusted_nice);
+}
+
+bool has_description(const std::string& urdf) {
+  std::error_code ignored;
+  return std::filesystem::exists(std::filesystem::path(urdf).parent_path() / "robot.json", ignored);
+}
+
 }  // namespace
 
 int robots_check_command(const RobotsCheckOptions& options) {
-  sim::BipedFinding found;
+  if (options.untrusted) live_on_little();
+  std::optional<sim::BipedFinding> found;
+  std::string reason;
   try {
     found = sim::find_biped(options.urdf);
   } catch (const sim::CannotWalk& refusal) {
+    reason = refusal.what();
+  }
+  if (found && !options.write.empty()) sim::write_robot(*found, options.write);
+  if (options.load && (found || has_description(options.urdf))) {
+    const std::filesystem::path folder = std::filesystem::path(options.urdf).parent_path();
+    sim::load_robot(folder.empty() ? "." : folder);
+  } else if (!found) {
     if (options.json) {
-      const Json answer = {{"urdf", options.urdf}, {"walks", false}, {"reason", refusal.what()}};
-      std::cout << answer.dump(2) << '\n';
+      const Json answer = {{"urdf", options.urdf}, {"walks", false}, {"reason", reason}};
+      std::cout << to_text(answer) << '\n';
     }
-    std::cerr << "stagger: " << options.urdf << ": cannot walk: " << refusal.what() << '\n';
+    std::cerr << "stagger: " << options.urdf << ": cannot walk: " << reason << '\n';
     return exit_no;
   }
-  if (!options.write.empty()) sim::write_robot(found, options.write);
   if (options.json) {
-    std::cout << finding_json(found).dump(2) << '\n';
+    // As the description says, then: what could not be found is told as the reason.
+    const Json by_hand = {{"urdf", options.urdf}, {"walks", true}, {"reason", reason}};
+    std::cout << (found ? finding_json(*found) : by_hand)
+                     .dump(2, ' ', false, Json::error_handler_t::replace)
+              << '\n';
+  } else if (found) {
+    print(*found);
   } else {
-    print(found);
+    std::cout << options.urdf << ": walks as its robot.json says; by itself it does not: " << reason
+              << '\n';
   }
   return exit_ok;
 }

@@ -5,12 +5,13 @@
 #include "server/cli/cli.h"
 #include "server/cli/commands.h"
 #include "server/json/gait_json.h"
+#include "server/json/parameters_json.h"
 #include "server/json/terrain_json.h"
 #include "sim/simulation.h"
 
 namespace stagger::server {
 int run_command(const RunOptions& options, const Folders& folders) {
-  RobotLibrary library(folders.robots);
+  RobotLibrary library(folders.robots, folders.uploaded_robots());
   const sim::SimulationConfig config = world_of(options.world, library);
   if (config.robot == nullptr) return exit_usage;
   sim::Simulation simulation(config);
@@ -35,6 +36,7 @@ int run_command(const RunOptions& options, const Folders& folders) {
     json.update({{"seconds", seconds},
                  {"walk", walk_json(options.walk)},
                  {"terrain", terrain_json(config.terrain)},
+                 {"parameters", parameter_values_json(config.parameters)},
                  {"ticks", ticks},
                  {"fell", frame.fallen},
                  {"fall_reason", frame.fallen ? Json(simulation.fall_reason()) : Json()},

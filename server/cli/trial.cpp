@@ -1,31 +1,15 @@
-#include <fstream>
 #include <iostream>
-#include <iterator>
 
 #include "server/cli/cli.h"
 #include "server/cli/commands.h"
-#include "server/json/robot_json.h"
+#include "server/cli/input.h"
 #include "server/json/trial_json.h"
 #include "server/robot_library.h"
 #include "sim/json_file.h"
 
 namespace stagger::server {
-namespace {
-
-std::string read_all(const std::string& file) {
-  const auto all = [](std::istream& in) {
-    return std::string(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
-  };
-  if (file == "-") return all(std::cin);
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw std::runtime_error("cannot read " + file);
-  return all(in);
-}
-
-}  // namespace
-
 int trial_command(const TrialOptions& options, const Folders& folders) {
-  const std::string text = read_all(options.spec);
+  const std::string text = read_input(options.spec);
   const std::string name = options.spec == "-" ? "standard input" : options.spec;
   sim::JsonErrors errors;
   sim::TrialSpec spec;
@@ -37,12 +21,12 @@ int trial_command(const TrialOptions& options, const Folders& folders) {
     return exit_usage;
   }
   if (!spec.robot.empty()) {
-    RobotLibrary library(folders.robots);
+    RobotLibrary library(folders.robots, folders.uploaded_robots());
     robot = library.find(spec.robot);
     if (robot == nullptr) {
       errors.add("/robot", library.unknown(spec.robot));
-    } else if (spec.push) {
-      if (const auto wrong = check_link(spec.push->link, *robot)) errors.add("/push/link", *wrong);
+    } else {
+      check_for_robot(spec, robot, errors);
     }
   }
   for (const sim::JsonError& error : errors.list()) {

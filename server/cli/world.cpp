@@ -3,6 +3,7 @@
 
 #include "server/cli/commands.h"
 #include "server/json/gait_json.h"
+#include "server/json/parameters_json.h"
 #include "server/json/terrain_json.h"
 #include "sim/json_file.h"
 
@@ -26,6 +27,23 @@ std::optional<sim::TerrainParameters> terrain_of(const std::string& text) {
   return terrain;
 }
 
+/// False, after a message on standard error, when they cannot be.
+bool read_parameters_option(const WorldOptions& options, sim::SimulationConfig& config) {
+  bool good = true;
+  const auto refuse = [&good](const std::string& why) {
+    std::cerr << "stagger: --parameter " << why << '\n';
+    good = false;
+  };
+  for (const std::string& text : options.parameters) {
+    if (const auto wrong = parse_parameter(text, config.parameters)) refuse(*wrong);
+  }
+  if (!good) return false;
+  for (const sim::ParameterFault& fault : sim::check_parameters(config, config.parameters)) {
+    refuse(fault.name + " " + fault.text);
+  }
+  return good;
+}
+
 }  // namespace
 
 sim::SimulationConfig world_of(const WorldOptions& options, RobotLibrary& robots) {
@@ -45,6 +63,8 @@ sim::SimulationConfig world_of(const WorldOptions& options, RobotLibrary& robots
   config.robot = robots.find(options.robot);
   if (config.robot == nullptr) {
     std::cerr << "stagger: --robot " << robots.unknown(options.robot) << '\n';
+  } else if (!read_parameters_option(options, config)) {
+    config.robot = nullptr;
   }
   return config;
 }

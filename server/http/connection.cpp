@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <utility>
+#include <vector>
 
 namespace stagger::server {
 namespace {
@@ -14,8 +16,7 @@ using Clock = std::chrono::steady_clock;
 using Milliseconds = std::chrono::milliseconds;
 
 constexpr Milliseconds request_patience{30000};
-constexpr Milliseconds linger_patience{1000};
-constexpr std::size_t linger_bytes = 16 << 20;
+constexpr std::size_t swallow_bytes = 16 << 20;
 // More would only hide from us, for a while, that the client takes nothing.
 constexpr int websocket_send_buffer = 256 * 1024;
 
@@ -46,22 +47,69 @@ std::size_t frame_length(const std::string& bytes) {
 
 }  // namespace
 
-bool Connection::wait_for_request(Milliseconds patience) {
-  if (!has_buffered() && !wait_for(socket_, POLLIN, patience)) return false;
-  request_end_ = Clock::now() + request_patience;
-  return true;
+Connection::Head Connection::take_in() {
+  if (start_ > 0) {
+    std::memmove(buffer_.data(), buffer_.data() + start_, end_ - start_);
+    end_ -= std::exchange(start_, 0);
+    searched_ = 0;
+  }
+  for (;;) {
+    // The end may begin in what came before.
+    const std::size_t from = searched_ < 3 ? 0 : searched_ - 3;
+    const std::string_view come(buffer_.data() + from, end_ - from);
+    searched_ = end_;
+    if (come.find("\r\n\r\n") != std::string_view::npos) return Head::complete;
+    if (end_ == buffer_.size()) return Head::complete;
+    const ssize_t count = recv(socket_, buffer_.data() + end_, buffer_.size() - end_, MSG_DONTWAIT);
+    if (count > 0) {
+      end_ += static_cast<std::size_t>(count);
+    } else if (count < 0 && errno == EINTR) {
+      continue;
+    } else {
+      const bool nothing_yet = count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK);
+      return nothing_yet ? Head::incomplete : Head::gone;
+    }
+  }
+}
+
+void Connection::begin_request() { request_begin_ = Clock::now(); }
+
+bool Connection::is_slow(Clock::time_point since) const {
+  return waits_ && !websocket_ && request_begin_.load() <= since;
+}
+
+bool Connection::swallow() {
+  while (swallowed_ < swallow_bytes) {
+    const ssize_t count = recv(socket_, buffer_.data(), buffer_.size(), MSG_DONTWAIT);
+    if (count > 0) {
+      swallowed_ += static_cast<std::size_t>(count);
+    } else if (count == 0 || errno != EINTR) {
+      return count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK);
+    }
+  }
+  return false;
 }
 
 bool Connection::wait_readable() const {
+  if (has_buffered()) return true;
   Milliseconds patience = read_timeout_;
   if (!websocket_) {
-    const auto left = std::chrono::duration_cast<Milliseconds>(request_end_ - Clock::now());
+    const auto end = request_begin_.load() + request_patience;
+    const auto left = std::chrono::duration_cast<Milliseconds>(end - Clock::now());
     patience = std::clamp(left, Milliseconds(0), patience);
   }
-  return has_buffered() || wait_for(socket_, POLLIN, patience);
+  waits_ = true;
+  const bool ready = wait_for(socket_, POLLIN, patience);
+  waits_ = false;
+  return ready;
 }
 
-bool Connection::wait_writable() const { return wait_for(socket_, POLLOUT, write_patience); }
+bool Connection::wait_writable() const {
+  waits_ = true;
+  const bool ready = wait_for(socket_, POLLOUT, write_patience);
+  waits_ = false;
+  return ready;
+}
 
 ssize_t Connection::read(char* data, std::size_t size) {
   if (!websocket_) return read_some(data, size);
@@ -85,6 +133,7 @@ ssize_t Connection::read_some(char* data, std::size_t size) {
     if (count <= 0) return count;
     start_ = 0;
     end_ = static_cast<std::size_t>(count);
+    searched_ = 0;
   }
   const std::size_t count = std::min(size, end_ - start_);
   std::memcpy(data, buffer_.data() + start_, count);
@@ -142,16 +191,13 @@ bool Connection::send_all(const char* data, std::size_t size) {
 
 void Connection::shut_down() const { shutdown(socket_, SHUT_RDWR); }
 
-void Connection::linger() {
-  shutdown(socket_, SHUT_WR);
-  const auto end = Clock::now() + linger_patience;
-  for (std::size_t swallowed = 0; swallowed < linger_bytes && Clock::now() < end;) {
-    if (!wait_for(socket_, POLLIN, linger_patience)) return;
-    const ssize_t count = recv(socket_, buffer_.data(), buffer_.size(), 0);
-    if (count <= 0) return;
-    swallowed += static_cast<std::size_t>(count);
-  }
+void Connection::try_write(std::string_view text) const {
+  // Whether it arrives or not, the connection ends.
+  [[maybe_unused]] const ssize_t sent =
+      send(socket_, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
 }
+
+void Connection::end_writing() const { shutdown(socket_, SHUT_WR); }
 
 ConnectionRegistry::Entry::Entry(ConnectionRegistry& registry, Connection& connection)
     : registry_(registry), connection_(connection) {
@@ -169,6 +215,18 @@ void ConnectionRegistry::shut_down_all() {
   const std::lock_guard lock(mutex_);
   closed_ = true;
   for (Connection* connection : open_) connection->shut_down();
+}
+
+std::size_t ConnectionRegistry::cut_slowest(std::size_t count, Clock::time_point since) {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::pair<Clock::time_point, Connection*>> slow;
+  for (Connection* connection : open_) {
+    if (connection->is_slow(since)) slow.emplace_back(connection->request_begin(), connection);
+  }
+  const std::size_t cut = std::min(count, slow.size());
+  std::partial_sort(slow.begin(), slow.begin() + static_cast<std::ptrdiff_t>(cut), slow.end());
+  for (std::size_t i = 0; i < cut; ++i) slow[i].second->shut_down();
+  return cut;
 }
 
 }  // namespace stagger::server

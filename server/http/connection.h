@@ -11,6 +11,7 @@
 #include <mutex>
 #include <set>
 #include <string>
+#include <string_view>
 
 namespace stagger::server {
 
@@ -28,8 +29,21 @@ class Connection {
   Connection& operator=(const Connection&) = delete;
 
   int socket() const { return socket_; }
-  /// Waits for the first byte of a request; from then on the whole request has 30 s to arrive.
-  bool wait_for_request(std::chrono::milliseconds patience);
+  enum class Head : std::uint8_t {
+    incomplete,
+    complete,  ///< all of it, or more than the buffer holds: the library is to look at it
+    gone       ///< the client has left
+  };
+  /// Takes in what has come of a request's head. Never waits.
+  Head take_in();
+  /// A request is about to be read: from now on the rest of it has 30 s to arrive.
+  void begin_request();
+  /// In a request since at least then, and waiting for the client right now. Any thread.
+  bool is_slow(std::chrono::steady_clock::time_point since) const;
+  std::chrono::steady_clock::time_point request_begin() const { return request_begin_; }
+  bool is_websocket() const { return websocket_; }
+  /// Throws away what comes, without waiting; false at the end.
+  bool swallow();
   bool has_buffered() const { return start_ < end_; }
   bool wait_readable() const;
   bool wait_writable() const;
@@ -49,9 +63,12 @@ class Connection {
 
   /// Ends what all threads do with the socket. The descriptor stays open.
   void shut_down() const;
-  /// Tells the client that nothing more comes, and swallows what it still sends: to close with data
-  /// unread would destroy the answer on its way.
-  void linger();
+  /// What can be sent without waiting.
+  void try_write(std::string_view text) const;
+  /// Of this connection, the one that begins now included.
+  int count_request() { return ++requests_; }
+  /// Tells the client that nothing more comes.
+  void end_writing() const;
 
  private:
   ssize_t read_some(char* data, std::size_t size);
@@ -59,11 +76,15 @@ class Connection {
 
   const int socket_;
   std::chrono::milliseconds read_timeout_{5000};
-  std::chrono::steady_clock::time_point request_end_;
+  std::atomic<std::chrono::steady_clock::time_point> request_begin_{};
+  mutable std::atomic<bool> waits_{false};
   std::array<char, 16384> buffer_;
   std::size_t start_ = 0;
   std::size_t end_ = 0;
-  bool websocket_ = false;
+  std::size_t searched_ = 0;   ///< of the buffer: no end of a head in there
+  std::size_t swallowed_ = 0;  ///< [bytes]
+  int requests_ = 0;
+  std::atomic<bool> websocket_{false};
   std::string frame_;  ///< what the library has written so far of a frame
   std::mutex write_mutex_;
   bool closing_ = false;
@@ -88,6 +109,9 @@ class ConnectionRegistry {
 
   /// Shuts down all that are open and all that come later.
   void shut_down_all();
+  /// Cuts off at most `count` clients that have let their request wait since `since`, the longest
+  /// first. Returns how many.
+  std::size_t cut_slowest(std::size_t count, std::chrono::steady_clock::time_point since);
 
  private:
   std::mutex mutex_;

@@ -25,6 +25,8 @@ std::string reason_phrase(int status) {
   switch (status) {
     case 400:
       return "Bad request";
+    case 401:
+      return "Unauthorized";
     case 403:
       return "Forbidden";
     case 404:
@@ -41,6 +43,8 @@ std::string reason_phrase(int status) {
       return "Unsupported media type";
     case 422:
       return "Invalid request";
+    case 429:
+      return "Too many requests";
     case 426:
       return "Upgrade required";
     case 503:

@@ -54,29 +54,45 @@ std::optional<Parameters> match(const std::vector<std::string>& pattern,
 }  // namespace
 
 void Router::add(const std::string& method, const std::string& pattern, RouteHandler handler) {
-  routes_.push_back({method, split(pattern), std::move(handler)});
+  routes_.push_back({method, pattern, split(pattern), std::move(handler)});
+}
+
+std::vector<std::string> Router::table() const {
+  std::vector<std::string> lines;
+  lines.reserve(routes_.size());
+  for (const Route& route : routes_) lines.push_back(route.method + " " + route.pattern);
+  return lines;
 }
 
 HttpResponse Router::handle(HttpRequest request) const {
+  std::string pattern;
+  HttpResponse response = answer(request, pattern);
+  response.route = std::move(pattern);
+  return response;
+}
+
+HttpResponse Router::answer(HttpRequest& request, std::string& pattern) const {
   try {
-    return dispatch(request);
+    return dispatch(request, pattern);
   } catch (const Problem& problem) {
     return to_response(problem);
   } catch (const CommandError& error) {
     return to_response(to_problem(error));
   } catch (const std::exception& error) {
     spdlog::error("{} {}: {}", request.method, request.path, error.what());
-    return to_response(Problem(500, error.what()));
+    // What went wrong inside is for the log, not for whoever provoked it.
+    return to_response(Problem(500, "an unexpected error; the server's log tells which"));
   }
 }
 
-HttpResponse Router::dispatch(HttpRequest& request) const {
+HttpResponse Router::dispatch(HttpRequest& request, std::string& pattern) const {
   const std::string method = request.method == "HEAD" ? "GET" : request.method;
   const std::vector<std::string> path = split(request.path);
   std::set<std::string> allowed;
   for (const Route& route : routes_) {
     auto parameters = match(route.parts, path);
     if (!parameters) continue;
+    pattern = route.pattern;
     if (route.method != method) {
       allowed.insert(route.method);
       continue;

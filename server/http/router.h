@@ -20,16 +20,21 @@ class Router {
   /// Answers GET where no route's path fits (files of the dashboard).
   void set_fallback(RouteHandler handler) { fallback_ = std::move(handler); }
 
+  /// "GET /api/v1/pushes/{id}" and so on, in the order in which they were added.
+  std::vector<std::string> table() const;
+
   /// Answers any request; what a handler throws becomes a problem. HEAD is answered as GET.
   HttpResponse handle(HttpRequest request) const;
 
  private:
   struct Route {
     std::string method;
+    std::string pattern;
     std::vector<std::string> parts;
     RouteHandler handler;
   };
-  HttpResponse dispatch(HttpRequest& request) const;
+  HttpResponse answer(HttpRequest& request, std::string& pattern) const;
+  HttpResponse dispatch(HttpRequest& request, std::string& pattern) const;
 
   std::vector<Route> routes_;
   RouteHandler fallback_;

@@ -1,11 +1,11 @@
 #include "server/http/static_files.h"
 
-#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <system_error>
 
+#include "server/http/message.h"
 #include "server/http/problem.h"
 
 namespace stagger::server {
@@ -34,10 +34,7 @@ std::string type_of(const fs::path& file) {
       {".stl", "model/stl"},
       {".obj", "model/obj"},
       {".txt", "text/plain; charset=utf-8"}};
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const auto found = types.find(extension);
+  const auto found = types.find(lower(file.extension().string()));
   return found == types.end() ? "application/octet-stream" : found->second;
 }
 

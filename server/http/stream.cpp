@@ -5,6 +5,7 @@
 #include <chrono>
 #include <thread>
 
+#include "server/json/stream_data.h"
 #include "server/json/stream_json.h"
 
 namespace stagger::server {
@@ -21,9 +22,9 @@ constexpr int heartbeats_per_ping = 3;
 constexpr auto close_patience = 500ms;
 
 /// The writer's side of one client.
-class Writer {
+class StreamWriter {
  public:
-  Writer(StreamSocket& socket, FrameHub& hub, Subscriber& subscriber)
+  StreamWriter(StreamSocket& socket, FrameHub& hub, Subscriber& subscriber)
       : socket_(socket), hub_(hub), subscriber_(subscriber) {}
 
   void run() {
@@ -32,7 +33,7 @@ class Writer {
       const auto item = subscriber_.next(next_heartbeat);
       if (item && std::holds_alternative<CloseItem>(*item))
         return close(std::get<CloseItem>(*item));
-      bool alive = !item || sent(socket_.send(text_of(*item)));
+      bool alive = !item || sent(send(*item));
       if (alive && Clock::now() >= next_heartbeat) {
         next_heartbeat = Clock::now() + heartbeat_period;
         alive = beat();
@@ -43,10 +44,16 @@ class Writer {
   }
 
  private:
+  StreamSocket::Sent send(const StreamItem& item) {
+    const auto* data = std::get_if<DataItem>(&item);
+    if (data == nullptr) return socket_.send(text_of(item));
+    const std::string& message =
+        data_.write(*data->frame, data->subscription, data->seq, data->due);
+    const bool is_text = data->subscription->format == StreamFormat::json;
+    return is_text ? socket_.send(message) : socket_.send_binary(message);
+  }
+
   const std::string& text_of(const StreamItem& item) {
-    if (const auto* data = std::get_if<DataItem>(&item)) {
-      return data_.text(*data->frame, data->subscription, data->seq);
-    }
     if (const auto* session = std::get_if<SessionPtr>(&item)) {
       text_ = hello_text(**session);
     } else if (const auto* event = std::get_if<EventPtr>(&item)) {
@@ -117,7 +124,7 @@ bool answer(const std::string& message, FrameHub& hub, Subscriber& subscriber) {
 
 void serve_stream(StreamSocket& socket, FrameHub& hub) {
   const std::shared_ptr<Subscriber> subscriber = hub.add();
-  std::thread writer([&] { Writer(socket, hub, *subscriber).run(); });
+  std::thread writer([&] { StreamWriter(socket, hub, *subscriber).run(); });
   int mistakes = 0;
   std::string message;
   while (socket.read(message)) {

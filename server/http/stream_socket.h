@@ -24,6 +24,7 @@ class StreamSocket {
   virtual bool read(std::string& text) = 0;
   /// Blocks for 2 s at most; after anything but `yes` the socket is of no more use.
   virtual Sent send(const std::string& text) = 0;
+  virtual Sent send_binary(const std::string& bytes) = 0;
   virtual Sent ping() = 0;
   /// Sends a close frame; the client then closes too, which ends read().
   virtual void close(int code, const std::string& reason) = 0;

@@ -10,8 +10,11 @@ namespace stagger::server {
 namespace {
 
 engine::Parameters parameters_of(const sim::LimitsSpec& spec, const sim::Robot& robot) {
-  return sim::engine_parameters(robot, spec.trial.plant, spec.trial.strategies,
-                                sim::Simulation::tick_s);
+  sim::WorldParameters parameters;
+  parameters.engine = sim::engine_parameters(robot, spec.trial.plant, spec.trial.strategies,
+                                             sim::Simulation::tick_s);
+  sim::set_values(parameters, spec.trial.parameters);
+  return parameters.engine;
 }
 
 Json conditions_json(const sim::LimitsSpec& spec, const sim::Robot& robot) {

@@ -131,7 +131,7 @@ Json paper_fit_json(const sim::PaperFit& fit) {
   return json;
 }
 
-std::string_view name_of(sim::SteppingStrategy strategy) {
+std::string_view strategy_name(sim::SteppingStrategy strategy) {
   switch (strategy) {
     case sim::SteppingStrategy::ankle:
       return "ankle";
@@ -147,7 +147,7 @@ Json pushes_json(const std::vector<sim::PushComparison>& pushes) {
   Json list = Json::array();
   for (const sim::PushComparison& push : pushes) {
     list.push_back({{"force_n", push.published.force},
-                    {"strategy", name_of(push.published.strategy)},
+                    {"strategy", strategy_name(push.published.strategy)},
                     {"fell", push.ours.fell},
                     {"land_m", push.ours.landing},
                     {"dt_s", push.ours.time_change},

@@ -81,7 +81,7 @@ sim::PushTrigger read_trigger(sim::JsonReader& reader) {
 
 Json vector_json(const sim::Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
-std::string_view name_of(sim::PushState state) {
+std::string_view state_name(sim::PushState state) {
   switch (state) {
     case sim::PushState::scheduled:
       return "scheduled";
@@ -135,7 +135,7 @@ Json push_spec_json(const sim::PushSpec& push) {
 
 Json push_record_json(const sim::PushRecord& record, double tick_s) {
   return {{"id", record.id},
-          {"state", name_of(record.state)},
+          {"state", state_name(record.state)},
           {"tick", record.created_tick},
           {"time_s", static_cast<double>(record.created_tick) * tick_s},
           {"start_tick", or_null(record.start_tick)},

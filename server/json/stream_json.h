@@ -3,12 +3,15 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
+#include "server/json/json.h"
 #include "server/live/messages.h"
 #include "sim/strict_json.h"
 
 namespace stagger::server {
+
+/// The table of channels, as hello tells it.
+Json channels_json(const std::vector<sim::Channel>& channels);
 
 std::string hello_text(const SessionInfo& session);
 std::string event_text(const EventMessage& event);
@@ -19,20 +22,5 @@ std::string subscribed_text(const Subscription& subscription, const SessionInfo&
 /// What the client asks for. What is wrong goes to `errors`, names of channels included.
 Subscription read_subscription(const std::string& text, const SessionInfo& session,
                                sim::JsonErrors& errors);
-
-/// Writes data messages for one client: finds the channels once for each subscription, and keeps
-/// its buffers.
-class DataWriter {
- public:
-  const std::string& text(const FrameMessage& message, const SubscriptionPtr& subscription,
-                          std::uint64_t seq);
-
- private:
-  SessionPtr session_;
-  SubscriptionPtr subscription_;
-  std::vector<const sim::Channel*> channels_;
-  std::vector<double> values_;
-  std::string text_;
-};
 
 }  // namespace stagger::server

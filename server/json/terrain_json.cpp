@@ -16,7 +16,7 @@ using Terrain = sim::TerrainParameters;
 constexpr double degree = std::numbers::pi / 180.0;
 constexpr double latest_shove = 1e6;  // [s]
 
-const sim::Names<TerrainKind>& kinds() {
+const sim::Names<TerrainKind>& terrain_kinds() {
   static const sim::Names<TerrainKind> names{{"flat", TerrainKind::flat},
                                              {"slope", TerrainKind::slope},
                                              {"uneven", TerrainKind::uneven},
@@ -67,7 +67,7 @@ sim::PlatformShove read_shove(sim::JsonReader& reader) {
 
 sim::TerrainParameters read_terrain(sim::JsonReader& reader) {
   Terrain terrain;
-  terrain.kind = reader.one_of("kind", kinds());
+  terrain.kind = reader.one_of("kind", terrain_kinds());
   terrain.friction = reader.number_or("friction", terrain.friction, friction_range());
   if (reader.value("patches") != nullptr) {
     reader.object_list("patches", count_range(), [&terrain](sim::JsonReader& patch) {
@@ -103,7 +103,7 @@ sim::TerrainParameters read_terrain(sim::JsonReader& reader) {
 
 Json terrain_json(const sim::TerrainParameters& terrain) {
   std::string_view kind;
-  for (const auto& [name, value] : kinds()) {
+  for (const auto& [name, value] : terrain_kinds()) {
     if (value == terrain.kind) kind = name;
   }
   Json patches = Json::array();

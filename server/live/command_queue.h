@@ -34,10 +34,11 @@ class CommandQueue {
     return std::exchange(items_, {});
   }
 
-  /// Returns when there is something to take, when the queue is closed, or after `patience`.
-  void wait(std::chrono::milliseconds patience) {
+  /// Returns when there is something to take, when the queue is closed (both: true), or after
+  /// `patience`.
+  bool wait(std::chrono::milliseconds patience) {
     std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, patience, [this] { return closed_ || !items_.empty(); });
+    return changed_.wait_for(lock, patience, [this] { return closed_ || !items_.empty(); });
   }
 
   /// From now on nothing is accepted.
@@ -47,6 +48,11 @@ class CommandQueue {
       closed_ = true;
     }
     changed_.notify_all();
+  }
+
+  std::size_t size() const {
+    const std::lock_guard lock(mutex_);
+    return items_.size();
   }
 
   bool closed() const {

@@ -5,6 +5,7 @@
 namespace stagger::server {
 
 void FrameHub::start_session(SessionPtr session) {
+  if (listener_ != nullptr) listener_->start_session(session);
   const std::lock_guard lock(mutex_);
   session_ = std::move(session);
   latest_.reset();
@@ -19,7 +20,20 @@ void FrameHub::publish(FramePtr frame, bool always) {
   }
 }
 
+void FrameHub::record(const FramePtr& frame) {
+  if (listener_ != nullptr) listener_->tick(frame);
+}
+
+void FrameHub::await_room(std::chrono::milliseconds patience) {
+  if (listener_ != nullptr) listener_->await_room(patience);
+}
+
 void FrameHub::publish(const EventPtr& event) {
+  if (listener_ != nullptr) listener_->event(event);
+  announce(event);
+}
+
+void FrameHub::announce(const EventPtr& event) {
   const std::lock_guard lock(mutex_);
   for (const auto& subscriber : subscribers_) subscriber->offer(event);
 }

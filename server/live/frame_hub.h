@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "server/live/messages.h"
+#include "server/live/session_listener.h"
 #include "server/live/subscriber.h"
 
 namespace stagger::server {
@@ -21,11 +22,22 @@ struct StreamCounters {
 
 class FrameHub {
  public:
+  /// Before the session starts; the listener outlives it. At most one.
+  void set_listener(SessionListener& listener) { listener_ = &listener; }
+
   // The simulation thread's side.
   void start_session(SessionPtr session);
+  /// A tick has been run; publish() shows it.
+  void record(const FramePtr& frame);
   void publish(FramePtr frame, bool always);
   void publish(const EventPtr& event);
   void set_running(bool running) { running_ = running; }
+  /// Before ticks that do not keep to the clock: so that none of them is lost to the listener.
+  void await_room(std::chrono::milliseconds patience);
+
+  // From any thread.
+  /// Something that is no part of the world: clients are told, recordings are not.
+  void announce(const EventPtr& event);
 
   // The clients' side.
   std::shared_ptr<Subscriber> add();
@@ -40,6 +52,7 @@ class FrameHub {
   void close_all(int code, const std::string& reason);
 
  private:
+  SessionListener* listener_ = nullptr;
   mutable std::mutex mutex_;
   std::vector<std::shared_ptr<Subscriber>> subscribers_;
   SessionPtr session_;

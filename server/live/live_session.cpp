@@ -16,20 +16,15 @@ using namespace std::chrono_literals;
 
 // Between two slices of a long step the other commands get their turn.
 constexpr auto step_slice = 5ms;
+// How long ticks that need not keep to the clock wait for whoever records them. Commands wait with
+// them: a disk that hangs must not hold these up for much longer than people notice.
+constexpr auto room_patience = 1s;
 constexpr int simulation_nice = -11;
 
 std::string random_id() {
   std::random_device device;
   const std::uint64_t high = device();
   return sim::to_hex((high << 32) ^ device());
-}
-
-// A compiler that runs beside us makes ticks late by a whole time slice. Only some users may raise
-// the priority; without it the simulation runs as well as it can.
-void raise_priority() {
-  if (setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), simulation_nice) != 0) {
-    spdlog::debug("the simulation thread keeps its normal priority");
-  }
 }
 
 // An absolute time, so that the time which a tick takes does not add up.
@@ -43,10 +38,16 @@ void sleep_until(std::chrono::steady_clock::time_point when) {
   }
 }
 
-std::string_view name_of(sim::EventKind kind) {
+std::string_view kind_of(sim::EventKind kind) {
   switch (kind) {
     case sim::EventKind::step:
       return "step";
+    case sim::EventKind::adjustment:
+      return "adjustment";
+    case sim::EventKind::strategies:
+      return "strategies";
+    case sim::EventKind::parameters:
+      return "parameters";
     case sim::EventKind::push_started:
       return "push_started";
     case sim::EventKind::push_done:
@@ -67,7 +68,7 @@ LiveSession::LiveSession(const sim::SimulationConfig& config, FrameHub& hub, boo
       pacer_(std::chrono::duration_cast<Clock::duration>(
           std::chrono::duration<double>(sim::Simulation::tick_s))) {
   start_session();
-  if (walk_at_start) world_->walk(walk_);
+  if (walk_at_start) apply(sim::Walk{walk_});
   show_state();
   thread_ = std::thread([this] { run(); });
 }
@@ -84,12 +85,27 @@ SessionState LiveSession::state() const {
   return state_;
 }
 
+// A compiler that runs beside us makes ticks late by a whole time slice. Only some users may raise
+// the priority; without it the simulation runs as well as it can.
+void LiveSession::set_priority(bool high) const {
+  const int nice = high ? simulation_nice : normal_nice_;
+  if (setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), nice) != 0) {
+    spdlog::debug("the simulation thread keeps its priority");
+  }
+}
+
+SessionCounters LiveSession::counters() const {
+  return {counts_.ticks, counts_.steps,    counts_.pushes,
+          counts_.falls, counts_.sessions, queue_.size()};
+}
+
 void LiveSession::run() {
-  raise_priority();
+  normal_nice_ = getpriority(PRIO_PROCESS, static_cast<id_t>(gettid()));
+  set_priority(true);
   pacer_.restart(Clock::now());
   while (!queue_.closed()) {
     if (running_) {
-      sleep_until(pacer_.due());
+      wait_for_tick();
     } else if (steps_.empty()) {
       queue_.wait(100ms);
     }
@@ -97,7 +113,7 @@ void LiveSession::run() {
     try {
       for (const Command& command : queue_.take()) command.run();
       if (running_) {
-        run_tick();
+        if (Clock::now() >= pacer_.due()) run_tick();
       } else if (!steps_.empty()) {
         run_steps();
       }
@@ -112,20 +128,33 @@ void LiveSession::run() {
   for (const Command& command : queue_.take()) command.refuse(stopping);
 }
 
+void LiveSession::wait_for_tick() {
+  // At a slow pace a command is not to wait for the tick.
+  constexpr auto nap = 2ms;
+  while (pacer_.due() - Clock::now() > nap) {
+    const auto left = std::chrono::floor<std::chrono::milliseconds>(pacer_.due() - Clock::now());
+    if (queue_.wait(left - 1ms)) return;
+  }
+  sleep_until(pacer_.due());
+}
+
 void LiveSession::run_tick() {
+  // Faster than the clock, a recorder that falls behind would lose ticks.
+  if (pacer_.speed().value_or(2.0) > 1.0) hub_.await_room(room_patience);
   pacer_.tick(Clock::now());
   advance();
-  publish_frame(false);
+  hub_.publish(frame_, false);
   try_show_state();
 }
 
 void LiveSession::run_steps() {
+  hub_.await_room(room_patience);
   const auto end = Clock::now() + step_slice;
   StepJob& job = steps_.front();
   do {
     advance();
     --job.ticks_left;
-    publish_frame(job.ticks_left == 0);
+    hub_.publish(frame_, job.ticks_left == 0);
   } while (job.ticks_left > 0 && Clock::now() < end);
   show_state();
   if (job.ticks_left > 0) return;
@@ -135,23 +164,42 @@ void LiveSession::run_steps() {
 
 void LiveSession::advance() {
   world_->step();
+  ++counts_.ticks;
+  make_frame();
+  hub_.record(frame_);
   for (sim::Event& event : world_->take_events()) {
+    count(event.kind);
     auto message = std::make_shared<EventMessage>();
     message->tick = event.tick;
     message->time = event.time;
-    message->kind = name_of(event.kind);
+    message->kind = kind_of(event.kind);
     message->text = std::move(event.text);
     message->values = std::move(event.values);
-    hub_.publish(EventPtr(std::move(message)));
+    if (event.kind == sim::EventKind::parameters) {
+      active_parameters_ =
+          std::make_shared<const sim::ParameterValues>(world_->active_parameters());
+    }
+    publish(std::move(message));
   }
 }
 
-void LiveSession::publish_frame(bool always) {
+void LiveSession::count(sim::EventKind kind) {
+  if (kind == sim::EventKind::step) ++counts_.steps;
+  if (kind == sim::EventKind::push_started) ++counts_.pushes;
+  if (kind == sim::EventKind::fall) ++counts_.falls;
+}
+
+void LiveSession::publish(const EventPtr& event) {
+  events_.add(event);
+  hub_.publish(event);
+}
+
+void LiveSession::make_frame() {
   auto message = std::make_shared<FrameMessage>();
   message->session = session_;
   message->frame = world_->frame();
+  message->state_hash = world_->state_hash();
   frame_ = std::move(message);
-  hub_.publish(frame_, always);
 }
 
 void LiveSession::repeat_frame() { hub_.publish(frame_, true); }
@@ -165,10 +213,17 @@ void LiveSession::start_session() {
   session->seed = config.seed;
   session->terrain = config.terrain;
   session->channels = world_->channels();
+  session->config = config;
+  session->journal = std::make_shared<Journal>();
   session_ = std::move(session);
+  ++counts_.sessions;
   strategies_ = config.strategies;
+  parameters_ = std::make_shared<const sim::ParameterValues>(config.parameters);
+  active_parameters_ = parameters_;
+  events_.clear();
   hub_.start_session(session_);
-  publish_frame(true);
+  make_frame();
+  hub_.publish(frame_, true);
 }
 
 void LiveSession::break_down(const std::string& why) {
@@ -185,6 +240,11 @@ void LiveSession::break_down(const std::string& why) {
 void LiveSession::end_steps(const CommandError& why) {
   for (const StepJob& job : steps_) job.ticket->fail(why);
   steps_.clear();
+}
+
+void LiveSession::apply(const sim::WorldCommand& command) {
+  sim::apply(*world_, command);
+  session_->journal->add(world_->next_tick(), command);
 }
 
 void LiveSession::require_intact() const {
@@ -223,7 +283,7 @@ void LiveSession::announce(const Effect& effect, std::string text, const std::st
   message->text = std::move(text);
   message->values = std::move(values);
   message->source = source;
-  hub_.publish(EventPtr(std::move(message)));
+  publish(std::move(message));
 }
 
 SessionState LiveSession::describe() const {
@@ -245,6 +305,9 @@ SessionState LiveSession::describe() const {
   state.walk = walk_;
   state.step_count = frame.step_count;
   state.worst_dcm_error_m = world_->worst_dcm_error();
+  state.speed = pacer_.speed();
+  state.parameters = parameters_;
+  state.active_parameters = active_parameters_;
   state.real_time_factor = running_ ? pacer_.real_time_factor() : 0.0;
   state.late_ticks = pacer_.late_ticks();
   state.worst_lateness_ms = pacer_.worst_lateness_ms();

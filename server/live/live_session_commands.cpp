@@ -1,5 +1,7 @@
 // The commands of a LiveSession: each is handed to the simulation thread, and waited for.
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "server/live/live_session.h"
 
@@ -19,6 +21,18 @@ const sim::PushRecord& look_up(const std::vector<sim::PushRecord>& records, std:
   }
   throw CommandError(CommandError::Kind::not_found,
                      "there is no push " + std::to_string(id) + " in this session");
+}
+
+std::vector<sim::Footstep> from_robot(std::vector<sim::Footstep> steps, const sim::Frame& frame) {
+  const sim::FootPose& left = frame.feet[0];
+  const sim::FootPose& right = frame.feet[1];
+  const double yaw = left.yaw + 0.5 * std::remainder(right.yaw - left.yaw, 2.0 * std::numbers::pi);
+  const sim::Vec2 middle = 0.5 * (left.position + right.position).head<2>();
+  for (sim::Footstep& step : steps) {
+    step.position = middle + engine::rotated(step.position, yaw);
+    step.yaw += yaw;
+  }
+  return steps;
 }
 
 }  // namespace
@@ -125,17 +139,44 @@ Effect LiveSession::reset(const sim::SimulationConfig& config, const std::string
 Effect LiveSession::walk(const engine::WalkCommand& command, const std::string& source) {
   return call<Effect>([this, command, source] {
     require_intact();
-    world_->walk(command);
+    apply(sim::Walk{command});
     walk_ = command;
     announce(now(), "walk", source, {{"vx", command.vx}, {"vy", command.vy}, {"wz", command.wz}});
     return now();
   });
 }
 
+Effect LiveSession::follow(const std::vector<sim::Footstep>& steps, StepFrame frame,
+                           const std::string& source) {
+  struct Answer {
+    Effect effect;
+    std::optional<std::size_t> refused;
+    std::string why;
+  };
+  const Answer answer = call<Answer>([this, steps, frame, source] {
+    require_intact();
+    if (world_->frame().fallen) {
+      throw CommandError(CommandError::Kind::conflict, "the robot has fallen");
+    }
+    try {
+      apply(
+          sim::FollowSteps{frame == StepFrame::robot ? from_robot(steps, world_->frame()) : steps});
+    } catch (const sim::StepListRefused& error) {
+      if (error.step) return Answer{now(), error.step, error.what()};
+      throw CommandError(CommandError::Kind::conflict, error.what());
+    }
+    walk_ = {};
+    announce(now(), "steps", source, {{"steps", static_cast<double>(steps.size())}});
+    return Answer{now(), std::nullopt, ""};
+  });
+  if (answer.refused) throw StepsRefused(answer.why, *answer.refused);
+  return answer.effect;
+}
+
 Effect LiveSession::stop_walking(const std::string& source) {
   return call<Effect>([this, source] {
     require_intact();
-    world_->stop_walking();
+    apply(sim::StopWalking{});
     walk_ = {};
     announce(now(), "stop", source);
     return now();
@@ -146,14 +187,60 @@ StrategyEffect LiveSession::change_strategies(const StrategyChange& change,
                                               const std::string& source) {
   return call<StrategyEffect>([this, change, source] {
     require_intact();
-    strategies_ = change(strategies_);
-    world_->set_strategies(strategies_);
-    announce(now(), "strategies", source,
-             {{"ankle", strategies_.ankle ? 1.0 : 0.0},
-              {"hip", strategies_.hip ? 1.0 : 0.0},
-              {"step", strategies_.step ? 1.0 : 0.0},
-              {"time", strategies_.time ? 1.0 : 0.0}});
+    set_strategies(change(strategies_), source);
     return StrategyEffect{now(), strategies_};
+  });
+}
+
+void LiveSession::set_strategies(const engine::Strategies& chosen, const std::string& source) {
+  strategies_ = chosen;
+  apply(sim::SetStrategies{strategies_});
+  announce(now(), "strategies", source,
+           {{"ankle", strategies_.ankle ? 1.0 : 0.0},
+            {"hip", strategies_.hip ? 1.0 : 0.0},
+            {"step", strategies_.step ? 1.0 : 0.0},
+            {"time", strategies_.time ? 1.0 : 0.0}});
+}
+
+ParameterEffect LiveSession::change_parameters(const ParameterChange& change,
+                                               const std::string& source,
+                                               const std::optional<engine::Strategies>& chosen) {
+  const std::lock_guard lock(reset_mutex_);
+  const SessionState present = state();
+  const sim::SimulationConfig config = hub_.session()->config;
+  const sim::ParameterValues wanted = change(*present.parameters);
+  auto faults = sim::check_parameters(config, wanted);
+  // What the living world makes of them has to go together as well.
+  if (faults.empty()) {
+    faults = sim::check_parameters(config, sim::live_part(wanted, *present.active_parameters));
+  }
+  if (!faults.empty()) throw ParametersRefused(std::move(faults));
+  return call<ParameterEffect>([this, wanted, chosen, source] {
+    require_intact();
+    if (chosen) set_strategies(*chosen, source);
+    std::vector<std::pair<std::string, double>> told;
+    for (const auto& [name, value] : wanted) {
+      const auto before = parameters_->find(name);
+      if (before == parameters_->end() || before->second != value) told.emplace_back(name, value);
+    }
+    apply(sim::SetParameters{wanted});
+    parameters_ = std::make_shared<const sim::ParameterValues>(wanted);
+    announce(now(), "parameters", source, std::move(told));
+    return ParameterEffect{now(), wanted, world_->active_parameters()};
+  });
+}
+
+Effect LiveSession::set_speed(std::optional<double> factor, const std::string& source) {
+  return call<Effect>([this, factor, source] {
+    pacer_.set_speed(factor, Clock::now());
+    // Without a pace it takes all the time that there is: then it must not take it from the others.
+    set_priority(factor.has_value());
+    if (factor) {
+      announce(now(), "speed", source, {{"factor", *factor}});
+    } else {
+      announce(now(), "speed max", source);
+    }
+    return now();
   });
 }
 
@@ -161,12 +248,12 @@ sim::PushRecord LiveSession::push(const sim::PushSpec& spec, const std::string& 
   return call<sim::PushRecord>([this, spec, source] {
     require_intact();
     require_room_for_a_push();
-    std::uint64_t id = 0;
     try {
-      id = world_->push(spec);
+      apply(sim::StartPush{spec});
     } catch (const std::invalid_argument& error) {
       throw CommandError(CommandError::Kind::invalid, error.what());
     }
+    const std::uint64_t id = world_->pushes().back().id;
     open_pushes_.push_back(id);
     announce(now(), "push " + std::to_string(id), source,
              {{"id", static_cast<double>(id)}, {"impulse_ns", spec.impulse_ns}});
@@ -181,7 +268,8 @@ sim::PushRecord LiveSession::cancel_push(std::uint64_t id, const std::string& so
       throw CommandError(CommandError::Kind::conflict,
                          "push " + std::to_string(id) + " is done already");
     }
-    if (record.state != sim::PushState::cancelled && world_->cancel_push(id)) {
+    if (record.state != sim::PushState::cancelled) {
+      apply(sim::CancelPush{id});
       announce(now(), "cancel push " + std::to_string(id), source,
                {{"id", static_cast<double>(id)}});
     }

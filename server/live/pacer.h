@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <optional>
 
 namespace stagger::server {
 
@@ -19,7 +20,15 @@ class Pacer {
   /// ticks would be one more stall for everyone who waits for an answer.
   static constexpr Duration max_backlog = std::chrono::milliseconds(50);
 
-  explicit Pacer(Duration period) : period_(period) {}
+  explicit Pacer(Duration tick) : tick_(tick), period_(tick) {}
+
+  /// Simulated seconds in a second of wall time, more than 0; nothing: as fast as it goes.
+  void set_speed(std::optional<double> factor, Time now) {
+    speed_ = factor;
+    period_ = factor ? std::chrono::duration_cast<Duration>(tick_ / *factor) : Duration::zero();
+    restart(now);
+  }
+  std::optional<double> speed() const { return speed_; }
 
   /// The next tick is due now (start, resume).
   void restart(Time now) {
@@ -33,15 +42,16 @@ class Pacer {
 
   /// A tick starts now.
   void tick(Time now) {
-    const Duration lateness = std::max(now - due_, Duration::zero());
+    // As fast as it goes, a tick is never late.
+    const Duration lateness = speed_ ? std::max(now - due_, Duration::zero()) : Duration::zero();
     if (lateness > late) ++late_ticks_;
     worst_lateness_ = std::max(worst_lateness_, lateness);
-    due_ = lateness > max_backlog ? now + period_ : due_ + period_;
+    due_ = !speed_ || lateness > max_backlog ? now + period_ : due_ + period_;
     ++window_ticks_;
     if (now - window_start_ >= std::chrono::seconds(1)) {
       using Seconds = std::chrono::duration<double>;
       real_time_factor_ =
-          window_ticks_ * Seconds(period_).count() / Seconds(now - window_start_).count();
+          window_ticks_ * Seconds(tick_).count() / Seconds(now - window_start_).count();
       window_start_ = now;
       window_ticks_ = 0;
     }
@@ -55,7 +65,9 @@ class Pacer {
   double real_time_factor() const { return real_time_factor_; }
 
  private:
-  Duration period_;
+  Duration tick_;    ///< of simulation time
+  Duration period_;  ///< of wall time from one tick to the next
+  std::optional<double> speed_ = 1.0;
   Time due_;
   Time window_start_;
   double window_ticks_ = 0.0;

@@ -11,7 +11,20 @@ namespace {
 
 // A second of frames: more would only make a slow client see an older past.
 std::size_t capacity_for(const Subscription& subscription) {
-  return static_cast<std::size_t>(std::clamp(subscription.rate_hz, 64.0, 1000.0));
+  const double fastest = *std::max_element(subscription.rates.begin(), subscription.rates.end());
+  return static_cast<std::size_t>(std::clamp(fastest, 64.0, 1000.0));
+}
+
+RateMask all_rates(const Subscription& subscription) {
+  return static_cast<RateMask>((1U << subscription.rates.size()) - 1U);
+}
+
+RateMask due_rates(const Subscription& subscription, std::uint64_t tick) {
+  unsigned due = 0;
+  for (std::size_t i = 0; i < subscription.rates.size(); ++i) {
+    if (is_due(tick, subscription.rates[i], sim::Simulation::tick_s)) due |= 1U << i;
+  }
+  return static_cast<RateMask>(due);
 }
 
 }  // namespace
@@ -31,10 +44,11 @@ std::size_t Subscriber::offer(const FramePtr& frame, bool always) {
   {
     const std::lock_guard lock(mutex_);
     if (subscription_ == nullptr || frame->session != session_) return 0;
-    const std::uint64_t tick = frame->frame.tick;
     if (frame == last_) return 0;
-    if (!always && !is_due(tick, subscription_->rate_hz, sim::Simulation::tick_s)) return 0;
-    dropped = add_frame(frame);
+    const RateMask due =
+        always ? all_rates(*subscription_) : due_rates(*subscription_, frame->frame.tick);
+    if (due == 0) return 0;
+    dropped = add_frame(frame, due);
   }
   changed_.notify_all();
   return dropped;
@@ -57,7 +71,7 @@ void Subscriber::subscribe(Subscription subscription, std::string answer, const 
     // A latecomer sees the present at once, also while the simulation is paused.
     if (latest != nullptr && latest->session == session_ &&
         (last_ == nullptr || last_->frame.tick <= latest->frame.tick)) {
-      add_frame(latest);
+      add_frame(latest, all_rates(*subscription_));
     }
   }
   changed_.notify_all();
@@ -131,9 +145,9 @@ void Subscriber::add_lossless(StreamItem item) {
   lossless_.emplace_back(next_order_++, std::move(item));
 }
 
-std::size_t Subscriber::add_frame(const FramePtr& frame) {
+std::size_t Subscriber::add_frame(const FramePtr& frame, RateMask due) {
   last_ = frame;
-  frames_.emplace_back(next_order_++, DataItem{frame, subscription_, next_seq_++});
+  frames_.emplace_back(next_order_++, DataItem{frame, subscription_, next_seq_++, due});
   if (frames_.size() <= capacity_for(*subscription_)) return 0;
   frames_.pop_front();
   ++dropped_;

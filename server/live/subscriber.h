@@ -19,6 +19,7 @@ struct DataItem {
   FramePtr frame;
   SubscriptionPtr subscription;
   std::uint64_t seq = 0;
+  RateMask due = 1;  ///< which of the subscription's rates it is taken for
 };
 
 /// The text of an answer to something that the client said.
@@ -69,7 +70,7 @@ class Subscriber {
 
  private:
   void add_lossless(StreamItem item);
-  std::size_t add_frame(const FramePtr& frame);
+  std::size_t add_frame(const FramePtr& frame, RateMask due);
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;

@@ -7,9 +7,16 @@
 #include <variant>
 #include <vector>
 
+#include "server/report/figure.h"
+
 namespace stagger::server {
 
 struct Paragraph {
+  std::string text;
+};
+
+/// To be read letter by letter: a specification, a command.
+struct Verbatim {
   std::string text;
 };
 
@@ -17,10 +24,12 @@ struct Table {
   struct Column {
     std::string title;
     bool number = false;  ///< aligned to the right
+    bool code = false;    ///< to be copied letter by letter
   };
   struct Row {
     std::vector<std::string> cells;  ///< the first one heads the row
     bool heading = false;            ///< one cell across the table, over the rows that follow
+    std::string id = "";             ///< to be linked to; unique in the page, or empty
   };
   std::string caption;
   std::vector<Column> columns;
@@ -28,21 +37,7 @@ struct Table {
   bool compact = false;  ///< as wide as its text, instead of the page
 };
 
-/// Pictures side by side with one caption under them.
-struct Figure {
-  std::string id;
-  std::string caption;
-  int columns = 2;                    ///< 1 to 4 on a wide page
-  std::vector<std::string> pictures;  ///< SVG elements
-  std::string legend = "";            ///< SVG element over all of them, or nothing
-};
-
-/// Width of a picture that is shown one to one in a figure of so many columns [px].
-double picture_width(int columns);
-/// Width of a legend that fits on a narrow page as well [px].
-inline constexpr double legend_width = 560.0;
-
-using Block = std::variant<Paragraph, Table, Figure>;
+using Block = std::variant<Paragraph, Verbatim, Table, Figure>;
 
 struct Section {
   std::string id;

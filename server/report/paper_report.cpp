@@ -9,25 +9,6 @@
 namespace stagger::server {
 namespace {
 
-std::vector<std::string> drawn(const std::vector<Plot>& plots) {
-  std::vector<std::string> pictures;
-  pictures.reserve(plots.size());
-  for (const Plot& plot : plots) pictures.push_back(to_svg(plot));
-  return pictures;
-}
-
-/// One legend over plots that would all have much the same.
-Figure with_one_legend(const std::string& id, std::string caption, int columns,
-                       std::vector<Plot> plots) {
-  Plot all;
-  all.id = id;
-  for (Plot& plot : plots) {
-    plot.legend = false;
-    all.layers.insert(all.layers.end(), plot.layers.begin(), plot.layers.end());
-  }
-  return {id, std::move(caption), columns, drawn(plots), legend_to_svg(all, legend_width)};
-}
-
 Table summary_table(const sim::PaperResults& results) {
   Table table;
   table.caption = "Every number, with what the paper publishes and what no controller can exceed";
@@ -66,7 +47,7 @@ Section plan_section(const sim::PlanResult& plan) {
                 "foot in single "
                 "support and moves to the next one in double support. Red dots come from a linear "
                 "system for the boundary values, which shares nothing with the planner.",
-                2, drawn(plan_plots(plan))};
+                2, plan_plots(plan)};
   return {"plan", "Planner", {std::move(figure), node_table(plan)}};
 }
 
@@ -78,7 +59,7 @@ Section tracking_section(const sim::TrackingResult& tracking) {
           std::to_string(tracking.seeds) +
           " seeds. The band is the extent of the feet on the ground: no ZMP can lie "
           "outside.",
-      2, drawn(tracking_plots(tracking))};
+      2, tracking_plots(tracking)};
   return {"lqg", "LQG controller under noise", {std::move(figure)}};
 }
 
@@ -117,16 +98,15 @@ Section standing_section(const sim::StandingFigures& figures) {
                   "441 initial states of the CoM, and which of them are at rest after two seconds "
                   "(less than 1 cm and 3 cm/s off) and still up three seconds later. Between the "
                   "red lines |c + v/ω| is at most half the foot's length; beyond, no ankle helps.",
-                  2, drawn(ankle)},
+                  2, ankle},
            Figure{"figure-examples",
                   "Two neighbours on the grid, one on either side of the bound. The band is the "
                   "foot; with the ZMP at its edge and the DCM outside, the fall cannot be stopped.",
-                  2, drawn(examples)},
-           with_one_legend(
-               "figure-hip",
-               "The same with a flywheel for the upper body, by torque, inertia and greatest "
-               "lean: the torque moves the bound outwards until the lean is used up.",
-               3, std::move(hips))}};
+                  2, examples},
+           Figure{"figure-hip",
+                  "The same with a flywheel for the upper body, by torque, inertia and greatest "
+                  "lean: the torque moves the bound outwards until the lean is used up.",
+                  3, std::move(hips), true}}};
 }
 
 Table push_table(const sim::SteppingFigures& figures) {
@@ -177,11 +157,11 @@ Figure push_figure(const std::vector<sim::PushComparison>& pushes, const std::st
     shown.insert(shown.end(), plots[i].layers.begin(), plots[i].layers.end());
   }
   for (Plot& plot : plots) plot.y.range = padded(y_range(shown));
-  return with_one_legend("figure-" + id,
-                         "The paper's eight pushes of 10 ms forward, " + settings +
-                             ": CoM, DCM and ZMP along x. The band is where the ZMP can be; it "
-                             "moves when the step lands.",
-                         4, std::move(plots));
+  return Figure{"figure-" + id,
+                "The paper's eight pushes of 10 ms forward, " + settings +
+                    ": CoM, DCM and ZMP along x. The band is where the ZMP can be; it "
+                    "moves when the step lands.",
+                4, std::move(plots), true};
 }
 
 Section stepping_section(const sim::SteppingFigures& figures) {
@@ -196,7 +176,7 @@ Section stepping_section(const sim::SteppingFigures& figures) {
           " seeds. Red: force that no controller survives with the same foot, reach and "
           "limits of the step time. What is left of single support decides the most.",
       1,
-      {to_svg(stepping_bars(figures.limits))}});
+      {stepping_bars(figures.limits)}});
   if (figures.directions.empty()) return section;
   std::vector<Plot> plots;
   for (const sim::SteppingLimits& forward : figures.limits) {
@@ -210,13 +190,13 @@ Section stepping_section(const sim::SteppingFigures& figures) {
     plots.push_back(direction_plot(around, picture_width(3),
                                    "scenario2-directions-" + std::to_string(plots.size() + 1)));
   }
-  section.blocks.emplace_back(with_one_legend(
+  section.blocks.emplace_back(Figure{
       "figure-directions",
       "First fall in eight directions, seen from above; the left foot stands. Titles: single "
       "support / double support / single support left at the push. Only the dots are "
       "measured, the lines between them guide the eye. Legs do not cross: pushes to the "
       "left find little room for a step.",
-      3, std::move(plots)));
+      3, std::move(plots), true});
   if (!figures.pushes.empty()) {
     section.blocks.emplace_back(push_table(figures));
     section.blocks.emplace_back(push_figure(figures.pushes, "pushes", "with our own settings"));

@@ -94,9 +94,10 @@ Svg::Svg(std::string_view id, double width, double height, std::string_view titl
          std::string_view description) {
   const std::string key = escaped(id);
   out_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" id=\"" + key + "\" viewBox=\"0 0 " +
-         coordinate(width) + " " + coordinate(height) + "\" role=\"img\" aria-labelledby=\"" + key +
-         "-title " + key + "-desc\">\n<title id=\"" + key + "-title\">" + escaped(title) +
-         "</title>\n<desc id=\"" + key + "-desc\">" + escaped(description) + "</desc>\n";
+         coordinate(width) + " " + coordinate(height) + "\"" + attribute("width", width) +
+         attribute("height", height) + " role=\"img\" aria-labelledby=\"" + key + "-title " + key +
+         "-desc\">\n<title id=\"" + key + "-title\">" + escaped(title) + "</title>\n<desc id=\"" +
+         key + "-desc\">" + escaped(description) + "</desc>\n";
 }
 
 void Svg::line(const Pixel& from, const Pixel& to, const Stroke& stroke) {
@@ -156,6 +157,22 @@ void Svg::text(const Pixel& at, std::string_view text, std::string_view style, A
   }
   out_ += ">" + escaped(text) + "</text>\n";
 }
+
+void Svg::style(std::string_view sheet) {
+  out_ += "<style>" + std::string(sheet) +
+          "</style>\n<rect width=\"100%\" height=\"100%\" class=\"area page\"/>\n";
+}
+
+void Svg::picture(const Pixel& corner, std::string_view svg) {
+  out_ +=
+      "<g transform=\"translate(" + coordinate(corner.x) + " " + coordinate(corner.y) + ")\">\n";
+  out_ += svg;
+  out_ += "</g>\n";
+}
+
+void Svg::begin_link(std::string_view address) { out_ += "<a href=\"" + escaped(address) + "\">"; }
+
+void Svg::end_link() { out_ += "</a>\n"; }
 
 void Svg::begin_clip(const Pixel& corner, double width, double height) {
   // A nested picture clips by itself and needs no name, unlike a clip path.

@@ -1,5 +1,5 @@
 // Writes one SVG picture, element by element. Knows no axes: plots of any kind build on it. Colours
-// and fonts come from the page's style sheet, through classes.
+// and fonts come from a style sheet, through classes.
 #pragma once
 
 #include <span>
@@ -56,10 +56,18 @@ class Svg {
   void rectangle(const Pixel& corner, double width, double height, const Fill& fill);
   void outline(const Pixel& corner, double width, double height, const Stroke& stroke);
   void circle(const Pixel& centre, double radius, const Fill& fill);
-  /// `style` is a class of the page's style sheet: "tick", "axis", "title", "note".
+  /// `style` is a class of the page's style sheet: "tick", "axis", "title", "note", "foot".
   void text(const Pixel& at, std::string_view text, std::string_view style,
             Anchor anchor = Anchor::start, bool upright = false);
 
+  /// For a picture that is no part of a page: its style sheet.
+  void style(std::string_view sheet);
+  /// Another picture inside of this one.
+  void picture(const Pixel& corner, std::string_view svg);
+
+  /// What follows, until the end, leads to this place: "#trial-7".
+  void begin_link(std::string_view address);
+  void end_link();
   /// What follows, until the end, is cut off at this rectangle; coordinates stay as they are.
   void begin_clip(const Pixel& corner, double width, double height);
   void end_clip();

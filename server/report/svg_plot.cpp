@@ -145,7 +145,9 @@ class Drawing {
       const Pixel corner{std::min(a.x, b.x) + layer.gap, std::min(a.y, b.y) + layer.gap};
       const double width = std::max(0.0, std::abs(a.x - b.x) - 2.0 * layer.gap);
       const double height = std::max(0.0, std::abs(a.y - b.y) - 2.0 * layer.gap);
+      if (!box.link.empty()) svg_.begin_link(box.link);
       svg_.rectangle(corner, width, height, layer.fill);
+      if (!box.link.empty()) svg_.end_link();
       if (layer.outlined) svg_.outline(corner, width, height, {layer.fill.ink, 1.2});
     }
   }
@@ -154,7 +156,8 @@ class Drawing {
   }
   void operator()(const NoteLayer& note) const {
     const Pixel place = at(note.at);
-    svg_.text({place.x, place.y - note.up}, note.text, "note", note.anchor);
+    svg_.text({place.x, place.y - note.up}, note.text, note.clear ? "note clear" : "note",
+              note.anchor);
   }
 
  private:
@@ -277,7 +280,8 @@ std::string to_svg(const Plot& plot) {
   svg.begin_clip({frame.left, frame.top}, frame.width, frame.height);
   for (const Layer& layer : plot.layers) std::visit(drawing, layer);
   svg.end_clip();
-  svg.outline({frame.left, frame.top}, frame.width, frame.height, {Ink::ground, 1.0});
+  if (plot.framed)
+    svg.outline({frame.left, frame.top}, frame.width, frame.height, {Ink::ground, 1.0});
   return std::move(svg).finish();
 }
 
@@ -287,5 +291,7 @@ std::string legend_to_svg(const Plot& plot, double width) {
   draw_legend(svg, legend, font);
   return std::move(svg).finish();
 }
+
+double legend_height(const Plot& plot, double width) { return lay_out_legend(plot, width).height; }
 
 }  // namespace stagger::server

@@ -35,6 +35,7 @@ struct BoxLayer {
   struct Box {
     DataPoint low;
     DataPoint high;
+    std::string link = "";  ///< where it leads to, or nothing
   };
   std::string name;
   Fill fill;
@@ -54,7 +55,8 @@ struct NoteLayer {
   DataPoint at;
   std::string text;
   Anchor anchor = Anchor::start;
-  double up = 0.0;  ///< shift [px]
+  double up = 0.0;     ///< shift [px]
+  bool clear = false;  ///< lines behind it are kept away
 };
 
 using Layer = std::variant<LineLayer, AreaLayer, BoxLayer, DotLayer, NoteLayer>;
@@ -80,6 +82,7 @@ struct Plot {
   Axis y;
   bool equal_aspect = false;  ///< one unit is as long on both axes
   bool legend = true;
+  bool framed = true;
   std::vector<Layer> layers;
 };
 
@@ -87,6 +90,7 @@ struct Plot {
 std::string to_svg(const Plot& plot);
 /// Its legend alone, for several plots that share one; "-legend" is added to the id.
 std::string legend_to_svg(const Plot& plot, double width);
+double legend_height(const Plot& plot, double width);
 
 /// Smallest range with all data of the layers on one axis; notes do not count.
 Range x_range(const std::vector<Layer>& layers);

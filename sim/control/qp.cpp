@@ -9,7 +9,48 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Of R: normals that depend on each other more than this leave nothing to divide by.
+constexpr double least_pivot = 1e-12;
+
+constexpr Eigen::Index is_equality = -1;
+
 }  // namespace
+
+bool QpSolver::factorise(const QpProblem& problem) {
+  const Eigen::Index dense = problem.h.rows();
+  const Eigen::Index rest = problem.diagonal.size();
+  n_ = dense + rest;
+  llt_.compute(problem.h);
+  if (llt_.info() != Eigen::Success) return false;
+  if (rest > 0 && !(problem.diagonal.minCoeff() > 0.0)) return false;
+  j_.setZero(n_, n_);
+  auto block = j_.topLeftCorner(dense, dense);
+  block.diagonal().setOnes();
+  llt_.matrixU().solveInPlace(block);
+  j_.diagonal().tail(rest) = problem.diagonal.cwiseSqrt().cwiseInverse();
+  x_.resize(n_);
+  x_.head(dense) = -problem.g.head(dense);
+  llt_.solveInPlace(x_.head(dense));
+  x_.tail(rest) = -problem.g.tail(rest).cwiseQuotient(problem.diagonal);
+  return true;
+}
+
+void QpSolver::reflect(Eigen::Index first) {
+  const Eigen::Index tail = n_ - first;
+  auto d = d_.tail(tail);
+  const double length = d.norm();
+  if (length == 0.0) return;
+  // Householder's reflection, with the sign that cancels nothing. It takes d to -sign * length.
+  const double sign = d[0] < 0.0 ? -1.0 : 1.0;
+  d[0] += sign * length;
+  const double scale = 1.0 / (length * std::abs(d[0]));
+  auto columns = j_.rightCols(tail);
+  turned_.noalias() = columns * d;
+  turned_ *= scale;
+  columns.noalias() -= turned_ * d.transpose();
+  d.setZero();
+  d[0] = -sign * length;
+}
 
 void QpSolver::directions(const Eigen::Ref<const Eigen::VectorXd>& normal) {
   const Eigen::Index q = active_count_;
@@ -22,28 +63,32 @@ void QpSolver::directions(const Eigen::Ref<const Eigen::VectorXd>& normal) {
 }
 
 bool QpSolver::add_constraint() {
-  // Rotate the tail of d onto its first entry; the same rotations keep J's columns consistent.
   const Eigen::Index q = active_count_;
-  for (Eigen::Index i = n_ - 1; i > q; --i) {
-    const double a = d_[i - 1];
-    const double b = d_[i];
-    if (b == 0.0) continue;
-    const double length = std::hypot(a, b);
-    const double c = a / length;
-    const double s = b / length;
-    d_[i - 1] = length;
-    d_[i] = 0.0;
-    for (Eigen::Index k = 0; k < n_; ++k) {
-      const double left = j_(k, i - 1);
-      const double right = j_(k, i);
-      j_(k, i - 1) = c * left + s * right;
-      j_(k, i) = c * right - s * left;
-    }
-  }
+  reflect(q);
   r_.col(q).head(q + 1) = d_.head(q + 1);
   ++active_count_;
   // A normal that depends on the active ones would make R singular.
-  return std::abs(d_[q]) > 1e-12;
+  return std::abs(d_[q]) > least_pivot;
+}
+
+bool QpSolver::add_equalities(const QpProblem& problem) {
+  const Eigen::Index equalities = problem.equality.rows();
+  for (Eigen::Index i = 0; i < equalities; ++i) {
+    d_.noalias() = j_.transpose() * problem.equality.row(i).transpose();
+    active_.push_back(is_equality);
+    if (!add_constraint()) return false;
+  }
+  if (equalities == 0) return true;
+  // The shortest way in the measure of H to where all hold.
+  auto residual = dual_.head(equalities);
+  residual = problem.equality_value;
+  residual.noalias() -= problem.equality * x_;
+  r_.topLeftCorner(equalities, equalities)
+      .triangularView<Eigen::Upper>()
+      .transpose()
+      .solveInPlace(residual);
+  x_.noalias() += j_.leftCols(equalities) * residual;
+  return true;
 }
 
 void QpSolver::drop(Eigen::Index position) {
@@ -54,7 +99,7 @@ void QpSolver::drop(Eigen::Index position) {
   for (Eigen::Index i = position; i + 1 < q; ++i) {
     active_[static_cast<std::size_t>(i)] = active_[static_cast<std::size_t>(i + 1)];
     u_[i] = u_[i + 1];
-    r_.col(i).head(q) = r_.col(i + 1).head(q);
+    r_.col(i).head(i + 2) = r_.col(i + 1).head(i + 2);
   }
   u_[q - 1] = u_[q];  // the multiplier of the constraint that is being taken in
   u_[q] = 0.0;
@@ -65,26 +110,14 @@ void QpSolver::drop(Eigen::Index position) {
     const double a = r_(i, i);
     const double b = r_(i + 1, i);
     if (b == 0.0) continue;
-    const double length = std::hypot(a, b);
-    const double c = a / length;
-    const double s = b / length;
-    for (Eigen::Index k = i; k < active_count_; ++k) {
-      const double upper = r_(i, k);
-      const double lower = r_(i + 1, k);
-      r_(i, k) = c * upper + s * lower;
-      r_(i + 1, k) = c * lower - s * upper;
-    }
-    for (Eigen::Index k = 0; k < n_; ++k) {
-      const double left = j_(k, i);
-      const double right = j_(k, i + 1);
-      j_(k, i) = c * left + s * right;
-      j_(k, i + 1) = c * right - s * left;
-    }
+    Eigen::JacobiRotation<double> turn;
+    turn.makeGivens(a, b);
+    r_.middleCols(i, active_count_ - i).applyOnTheLeft(i, i + 1, turn.adjoint());
+    j_.applyOnTheRight(i, i + 1, turn);
   }
 }
 
 QpStatus QpSolver::solve(const QpProblem& problem) {
-  n_ = problem.h.rows();
   const Eigen::Index equalities = problem.equality.rows();
   inequalities_ = problem.inequality.rows();
   iterations_ = 0;
@@ -92,30 +125,15 @@ QpStatus QpSolver::solve(const QpProblem& problem) {
   active_.clear();
   is_active_.assign(static_cast<std::size_t>(inequalities_), 0);
 
-  llt_.compute(problem.h);
-  if (llt_.info() != Eigen::Success) return QpStatus::not_convex;
-  j_.setIdentity(n_, n_);
-  llt_.matrixU().solveInPlace(j_);
-  r_.setZero(n_, n_);
+  if (!factorise(problem)) return QpStatus::not_convex;
+  r_.resize(n_, n_);
   u_.setZero(equalities + inequalities_ + 1);
   d_.resize(n_);
   primal_.resize(n_);
+  turned_.resize(n_);
   dual_.resize(std::max<Eigen::Index>(n_, equalities + inequalities_));
   slack_.resize(inequalities_);
-  x_ = llt_.solve(-problem.g);
-
-  for (Eigen::Index i = 0; i < equalities; ++i) {
-    const auto normal = problem.equality.row(i).transpose();
-    directions(normal);
-    const double curvature = primal_.dot(normal);
-    if (!(curvature > 1e-14)) return QpStatus::infeasible;
-    const double t = (problem.equality_value[i] - normal.dot(x_)) / curvature;
-    x_ += t * primal_;
-    u_.head(active_count_) -= t * dual_.head(active_count_);
-    u_[active_count_] = t;
-    active_.push_back(-1 - i);
-    if (!add_constraint()) return QpStatus::infeasible;
-  }
+  if (!add_equalities(problem)) return QpStatus::infeasible;
 
   const int most = 20 * static_cast<int>(n_ + inequalities_);
   while (iterations_++ < most) {

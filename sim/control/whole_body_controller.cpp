@@ -11,6 +11,9 @@ namespace {
 
 using engine::Vec2;
 
+/// Of the CoM (3), the momentum (2), the torso (3) and the feet (6 each).
+constexpr Eigen::Index most_task_rows = 20;
+
 /// Rotation vector that takes `from` to `to`, world axes [rad].
 Vec3 rotation_error(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
   const Eigen::AngleAxisd turn(to * from.transpose());
@@ -38,22 +41,48 @@ WholeBodyController::WholeBodyController(const Robot& robot, const WholeBodyGain
     foot.corners = {foot.sole * Vec3(x, y, 0.0), foot.sole * Vec3(x, -y, 0.0),
                     foot.sole * Vec3(-x, y, 0.0), foot.sole * Vec3(-x, -y, 0.0)};
   }
+  // A knee that has gone past straight cannot be bent again by what shortens the leg: it is braked
+  // before, even where its range goes on.
+  for (const LegGeometry& leg : legs_) {
+    if (leg.knee_joint < 0) continue;
+    Body& knee = joints_[static_cast<std::size_t>(leg.knee_joint)];
+    if (leg.knee_way > 0.0) {
+      knee.lower = std::max(knee.lower, leg.straight_knee);
+    } else {
+      knee.upper = std::min(knee.upper, leg.straight_knee);
+    }
+  }
+  set_gains(gains);
+  torso_body_ = robot.model.links.at(robot.description.torso).body;
+  torso_in_body_ = robot.torso_in_body();
+  jacobian_.resize(6, nv_);
+  task_rows_.resize(most_task_rows, nv_);
+  task_values_.resize(most_task_rows);
+  torque_ = Eigen::VectorXd::Zero(nv_ - 6);
+}
+
+void WholeBodyController::set_gains(const WholeBodyGains& gains) {
+  gains_ = gains;
   limit_weights_.assign(joints_.size(), gains.limit_weight);
   for (const LegGeometry& leg : legs_) {
     for (const int joint : leg.ankle_joints) {
       limit_weights_[static_cast<std::size_t>(joint)] = gains.ankle_limit_weight;
     }
   }
-  torso_body_ = robot.model.links.at(robot.description.torso).body;
-  torso_in_body_ = robot.torso_in_body();
-  jacobian_.resize(6, nv_);
-  torque_ = Eigen::VectorXd::Zero(nv_ - 6);
 }
 
 void WholeBodyController::add_task(double weight, const Rows& jacobian,
                                    const Eigen::Ref<const Eigen::VectorXd>& value) {
-  problem_.h.topLeftCorner(nv_, nv_).noalias() += weight * jacobian.transpose() * jacobian;
-  problem_.g.head(nv_).noalias() -= weight * jacobian.transpose() * value;
+  const double root = std::sqrt(weight);
+  task_rows_.middleRows(task_count_, jacobian.rows()) = root * jacobian;
+  task_values_.segment(task_count_, jacobian.rows()) = root * value;
+  task_count_ += jacobian.rows();
+}
+
+void WholeBodyController::sum_up_tasks() {
+  const auto rows = task_rows_.topRows(task_count_);
+  problem_.h.selfadjointView<Eigen::Lower>().rankUpdate(rows.transpose());
+  problem_.g.head(nv_).noalias() -= rows.transpose() * task_values_.head(task_count_);
 }
 
 void WholeBodyController::add_com_task(const RigidBody& body,
@@ -235,6 +264,7 @@ void WholeBodyController::add_dynamics(const RigidBody& body) {
 
 void WholeBodyController::add_limits(const RigidBody& body, const RobotState& state) {
   Eigen::Index row = 0;
+  problem_.inequality.topRows(5 * static_cast<Eigen::Index>(contacts_.size())).setZero();
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const Eigen::Index x = nv_ + 3 * static_cast<Eigen::Index>(i);
     for (const Eigen::Index tangent : {x, x + 1}) {
@@ -249,15 +279,15 @@ void WholeBodyController::add_limits(const RigidBody& body, const RobotState& st
   }
   // tau = M_j nudot + h_j - J_j' f within what the motors give at their speed.
   const Eigen::Index joints = nv_ - 6;
+  auto upper = problem_.inequality.middleRows(row, joints);
+  upper.leftCols(nv_) = -body.mass_matrix().bottomRows(joints);
+  upper.rightCols(contact_jacobian_.rows()) = contact_jacobian_.rightCols(joints).transpose();
+  problem_.inequality.middleRows(row + joints, joints) = -upper;
   for (Eigen::Index j = 0; j < joints; ++j) {
     const TorqueRange range = available_torque(joints_[static_cast<std::size_t>(j)], state.qd[j]);
     const double bias = body.bias()[6 + j];
-    auto upper = problem_.inequality.row(row);
-    upper.head(nv_) = -body.mass_matrix().row(6 + j);
-    upper.tail(contact_jacobian_.rows()) = contact_jacobian_.col(6 + j).transpose();
-    problem_.inequality_bound[row++] = bias - range.upper;
-    problem_.inequality.row(row) = -upper;
-    problem_.inequality_bound[row++] = range.lower - bias;
+    problem_.inequality_bound[row + j] = bias - range.upper;
+    problem_.inequality_bound[row + joints + j] = range.lower - bias;
   }
 }
 
@@ -268,12 +298,13 @@ const Eigen::VectorXd& WholeBodyController::compute(const RigidBody& body, const
   const Eigen::Index n = nv_ + forces;
   const Eigen::Index joints = nv_ - 6;
   const Eigen::Index limits = 5 * static_cast<Eigen::Index>(contacts_.size()) + 2 * joints;
-  problem_.h.setZero(n, n);
-  problem_.h.diagonal().head(nv_).setConstant(gains_.acceleration_regularisation);
-  problem_.h.diagonal().tail(forces).setConstant(gains_.force_regularisation);
+  problem_.h.setZero(nv_, nv_);
+  problem_.h.diagonal().setConstant(gains_.acceleration_regularisation);
+  problem_.diagonal.setConstant(forces, gains_.force_regularisation);
   problem_.g.setZero(n);
+  task_count_ = 0;
   problem_.equality.resize(6, n);
-  problem_.inequality.setZero(limits, n);
+  problem_.inequality.resize(limits, n);
   problem_.inequality_bound.resize(limits);
 
   const Vec3 normal(-targets.ground_slope.x(), -targets.ground_slope.y(), 1.0);
@@ -285,6 +316,7 @@ const Eigen::VectorXd& WholeBodyController::compute(const RigidBody& body, const
     add_foot_task(body, feet_[i], targets.feet[i], ankle_freedom(legs_[i], state), ground);
   }
   add_joint_limit_tasks(state);
+  sum_up_tasks();
   add_dynamics(body);
   add_limits(body, state);
 

@@ -23,6 +23,9 @@ class WholeBodyController {
       : WholeBodyController(robot, whole_body_gains(robot)) {}
   WholeBodyController(const Robot& robot, const WholeBodyGains& gains);
 
+  /// Other weights and gains from the next tick on; sole_margin stays.
+  void set_gains(const WholeBodyGains& gains);
+
   /// Joint torques for this tick [N m]; `body` is up to date with the state.
   const Eigen::VectorXd& compute(const RigidBody& body, const RobotState& state,
                                  const engine::WalkingTargets& targets);
@@ -42,7 +45,7 @@ class WholeBodyController {
   };
   using Rows = Eigen::Ref<const Eigen::MatrixXd>;
 
-  /// Adds weight * |jacobian nudot - value|^2 to the cost.
+  /// Adds weight * |jacobian nudot - value|^2 / 2 to the cost.
   void add_task(double weight, const Rows& jacobian,
                 const Eigen::Ref<const Eigen::VectorXd>& value);
   void add_com_task(const RigidBody& body, const engine::WalkingTargets& targets);
@@ -59,6 +62,8 @@ class WholeBodyController {
   /// whole body along.
   void add_foot_task(const RigidBody& body, const Foot& foot, const engine::FootTarget& target,
                      double freedom, const Eigen::Quaterniond& ground);
+  /// The cost of the tasks that were added.
+  void sum_up_tasks();
   void find_contacts(const RigidBody& body, const engine::WalkingTargets& targets);
   void add_dynamics(const RigidBody& body);
   void add_limits(const RigidBody& body, const RobotState& state);
@@ -75,6 +80,9 @@ class WholeBodyController {
   std::vector<Contact> contacts_;
   Matrix6X jacobian_;
   Eigen::MatrixXd contact_jacobian_;  ///< three rows a corner
+  Eigen::MatrixXd task_rows_;         ///< Jacobians of the tasks, each times the root of its weight
+  Eigen::VectorXd task_values_;
+  Eigen::Index task_count_ = 0;  ///< rows in use
   QpProblem problem_;
   QpSolver solver_;
   Eigen::VectorXd torque_;

@@ -10,11 +10,13 @@ namespace stagger::sim {
 /// 1/s^2, damping in 1/s.
 struct WholeBodyGains {
   double com_weight = 1000.0;  ///< horizontal CoM acceleration w^2 (c - p - hip's shift)
-  double height_weight = 100.0;
+  /// Above that of a leaning torso, whose task else lifts the body until its knees are straight.
+  double height_weight = 1000.0;
   double height_stiffness = 100.0;
   double height_damping = 20.0;
   double momentum_weight = 0.01;  ///< rate of angular momentum that the hip strategy asks for
-  double torso_weight = 1.0;      ///< low: the hips may lean to help the balance
+  /// Low: the hips may lean to help the balance. Below 0.8, h1_2 leans over after long steps back.
+  double torso_weight = 0.85;
   double torso_stiffness = 300.0;
   double torso_damping = 35.0;
   double swing_weight = 30.0;

@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/experiment/recovery.h"
+#include "sim/experiment/push_train.h"
 #include "sim/simulation.h"
 
 namespace stagger::sim {
 namespace {
-
-/// How long a push may wait for its phase or time beyond the settling [s].
-constexpr double trigger_patience_s = 10.0;
 
 std::uint64_t ticks_of(double seconds) {
   return static_cast<std::uint64_t>(std::llround(seconds / Simulation::tick_s));
@@ -27,6 +24,7 @@ TrialResult run_trial(const TrialSpec& spec, std::shared_ptr<const Robot> robot)
   config.senses = spec.senses;
   config.terrain = spec.terrain;
   config.physics.self_collision = spec.self_collision;
+  config.parameters = spec.parameters;
   Simulation simulation(std::move(config));
   if (!spec.stand) simulation.walk(spec.walk);
   TrialResult result;
@@ -49,41 +47,37 @@ TrialResult run_trial(const TrialSpec& spec, std::shared_ptr<const Robot> robot)
   }
   simulation.take_events();
 
-  Recovery recovery(spec.stand);
-  const auto step = [&] { recovery.look(simulation.step()); };
-  if (spec.push) {
-    simulation.push(*spec.push);
-    // Safe to hold on to: this simulation gets no second push.
-    const PushRecord& push = simulation.pushes().back();
-    double patience = trigger_patience_s;
-    if (const auto* at = std::get_if<TimeTrigger>(&spec.push->trigger)) patience += at->at_s;
-    const std::uint64_t latest = settle + ticks_of(patience);
-    while (!push.start_tick && !fell()) {
-      if (simulation.next_tick() >= latest) {
-        return finish(TrialOutcome::timeout, "the push's trigger never came");
-      }
-      simulation.take_events();
-      simulation.step();
+  const std::vector<PushSpec> one = spec.push ? std::vector{*spec.push} : std::vector<PushSpec>{};
+  PushTrain train(spec.push ? one : spec.pushes, spec.stand);
+  const auto look_back = [&] {
+    result.push_tick = train.first_tick();
+    result.delivered_ns = train.delivered_ns();
+    if (!spec.push) result.pushes = train.outcomes(fell());
+  };
+  while (!train.done() && !fell()) {
+    train.schedule(simulation);
+    if (train.overdue(simulation.next_tick())) {
+      look_back();
+      return finish(TrialOutcome::timeout, "the push's trigger never came");
     }
-    if (!push.start_tick) {
-      result.fall_time_s = simulation.frame().time;
-      return finish(TrialOutcome::invalid, "before the push: " + simulation.fall_reason());
-    }
-    result.push_tick = push.start_tick;
-    while (push.state == PushState::active && !fell()) step();
-    result.delivered_ns = push.delivered.norm();
+    train.step(simulation);
+  }
+  if ((spec.push || !spec.pushes.empty()) && !train.first_tick()) {
+    look_back();
+    result.fall_time_s = simulation.frame().time;
+    return finish(TrialOutcome::invalid, "before the push: " + simulation.fall_reason());
   }
 
   const std::uint64_t start = simulation.next_tick();
   const std::uint64_t end = start + ticks_of(spec.observe_s);
-  while (simulation.next_tick() < end && !fell()) step();
-  recovery.take(simulation.take_events());
+  while (simulation.next_tick() < end && !fell()) train.step(simulation);
+  look_back();
   if (fell()) {
     result.fall_time_s = simulation.frame().time;
     return finish(TrialOutcome::fell, simulation.fall_reason());
   }
-  result.steps_to_recover = recovery.steps();
-  if (const auto back = recovery.back_tick()) {
+  result.steps_to_recover = train.recovery().steps();
+  if (const auto back = train.recovery().back_tick()) {
     result.recovery_time_s =
         static_cast<double>(std::max(*back, start) - start) * Simulation::tick_s;
   }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/parameters.h"
 #include "sim/control/senses.h"
@@ -12,6 +13,7 @@
 #include "sim/plant/push.h"
 #include "sim/plant/terrain.h"
 #include "sim/robot/robot.h"
+#include "sim/world_parameters.h"
 
 namespace stagger::sim {
 
@@ -28,6 +30,22 @@ struct TrialSpec {
   double settle_s = 3.0;       ///< walking or standing before the push may start [s]
   double observe_s = 4.0;      ///< after the push has ended [s]
   std::optional<PushSpec> push;
+  /// In place of `push`: one after another. One with a time comes at that time; any other waits for
+  /// its trigger from the end of the one before it in the list.
+  std::vector<PushSpec> pushes;
+  ParameterValues parameters;  ///< that are to differ from the robot's own
+};
+
+/// What became of one push of a list.
+struct PushOutcome {
+  std::optional<std::uint64_t> start_tick;
+  std::optional<std::uint64_t> end_tick;
+  double delivered_ns = 0.0;  ///< norm of the impulse that really acted [N s]
+  /// As those of TrialResult, by the next push's start at the latest.
+  std::optional<std::uint64_t> steps_to_recover;
+  std::optional<double> recovery_time_s;
+  /// The robot fell during or after this push, before the next one.
+  bool fell = false;
 };
 
 enum class TrialOutcome : std::uint8_t {
@@ -47,6 +65,7 @@ struct TrialResult {
   /// [s]; 0: it was by then. Nothing when it had not come back by the end of the observation.
   std::optional<double> recovery_time_s;
   std::optional<double> fall_time_s;
+  std::vector<PushOutcome> pushes;  ///< of a list, in its order
   double worst_dcm_error_m = 0.0;
   std::uint64_t ticks = 0;
   std::uint64_t state_hash = 0;

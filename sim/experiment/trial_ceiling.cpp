@@ -61,8 +61,12 @@ std::optional<double> trial_ceiling(const TrialSpec& spec, const Robot& robot) {
   if (push.profile != PushProfile::rectangular) return std::nullopt;
 
   // The margin that the full body's controller keeps inside the sole is its own choice.
-  const engine::Parameters p =
-      engine_parameters(robot, PlantKind::lipm, spec.strategies, Simulation::tick_s);
+  WorldParameters wanted;
+  wanted.engine = engine_parameters(robot, PlantKind::lipm, spec.strategies, Simulation::tick_s);
+  const double sole_margin = wanted.engine.sole_margin;
+  set_values(wanted, spec.parameters);
+  wanted.engine.sole_margin = sole_margin;
+  const engine::Parameters& p = wanted.engine;
   const engine::ReachRegion reach(p);
   engine::StepAbility ability = engine::step_ability(p, reach, spec.strategies.time);
   if (spec.stand) return standing_ceiling(push, ability, p);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "sim/plant/bullet_math.h"
+
 namespace stagger::sim {
 namespace {
 
@@ -13,8 +15,6 @@ constexpr double half_depth = 1.0;      // [m]
 /// than it is tall.
 constexpr std::int64_t tiles_a_side = 10;
 constexpr double tile_half_depth = 0.25;  // [m]
-
-btVector3 to_bullet(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 /// Turns the upward axis to the normal.
 btQuaternion tilt(const Vec3& normal) {

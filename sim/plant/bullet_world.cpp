@@ -22,6 +22,7 @@
 
 #include "sim/plant/body_pairs.h"
 #include "sim/plant/bullet_ground.h"
+#include "sim/plant/bullet_math.h"
 #include "sim/plant/motor_limits.h"
 
 namespace stagger::sim {
@@ -46,15 +47,6 @@ constexpr double robot_friction = 0.8;
 constexpr int ground_group = 1;
 constexpr int robot_group = 2;
 constexpr int stand_in_group = 4;
-
-btVector3 to_bullet(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-Vec3 to_eigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
-btQuaternion to_bullet(const Eigen::Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w()}; }
-Eigen::Quaterniond to_eigen(const btQuaternion& q) { return {q.w(), q.x(), q.y(), q.z()}; }
-btTransform to_bullet(const Eigen::Isometry3d& pose) {
-  return btTransform(to_bullet(Eigen::Quaterniond(pose.linear())),
-                     to_bullet(Vec3(pose.translation())));
-}
 
 /// Bullet's frame of a body: at its centre of mass, along its principal axes.
 struct PrincipalFrame {

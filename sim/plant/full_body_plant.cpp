@@ -32,7 +32,7 @@ const SenseParameters& valid(const SenseParameters& senses) {
 
 FullBodyPlant::FullBodyPlant(std::shared_ptr<const Robot> robot, const PhysicsParameters& physics,
                              const SenseParameters& senses, std::uint64_t seed,
-                             const Terrain& terrain)
+                             const Terrain& terrain, const std::optional<WholeBodyGains>& gains)
     : robot_(std::move(robot)),
       senses_(valid(senses)),
       terrain_(terrain),
@@ -41,7 +41,7 @@ FullBodyPlant::FullBodyPlant(std::shared_ptr<const Robot> robot, const PhysicsPa
       estimator_(*robot_, senses.sensors, physics.dt, physics.gravity, world_.state()),
       body_(robot_->model),
       true_body_(robot_->model),
-      controller_(*robot_),
+      controller_(*robot_, gains ? *gains : whole_body_gains(*robot_)),
       limp_damping_(limp_damping * dynamic_scale(*robot_).damping()) {
   const auto joints = static_cast<Eigen::Index>(robot_->model.joint_count());
   torque_ = Eigen::VectorXd::Zero(joints);
@@ -156,6 +156,16 @@ void FullBodyPlant::describe(Frame& frame) const {
   frame.com_velocity = truth_.com_velocity;
   frame.dcm = truth_.com.head<2>() + truth_.com_velocity.head<2>() / omega;
   frame.zmp = truth_.zmp;
+  const RigidBody& body = true_body();
+  const Matrix3X& momentum = body.angular_momentum_matrix();
+  frame.angular_momentum.noalias() = momentum.leftCols<3>() * state.base_velocity;
+  frame.angular_momentum.noalias() += momentum.middleCols<3>(3) * state.base_angular_velocity;
+  frame.angular_momentum.noalias() += momentum.rightCols(state.qd.size()) * state.qd;
+  frame.ground_force_count = 0;
+  for (const BulletWorld::Contact& contact : world_.contacts()) {
+    if (!contact.with_ground() || frame.ground_force_count == max_contacts) continue;
+    frame.ground_forces[frame.ground_force_count++] = {contact.point, contact.force};
+  }
   frame.base_position = state.base_position;
   frame.base_orientation = state.base_orientation;
   frame.feet = truth_.feet;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "sim/control/estimator.h"
@@ -18,14 +19,16 @@ namespace stagger::sim {
 /// Control sees the estimate of the state, or the state itself where the senses are perfect.
 class FullBodyPlant final : public Plant {
  public:
-  /// Stands on the terrain at rest. The seed is that of the sensors. Throws std::invalid_argument
-  /// for senses that are not valid.
+  /// Stands on the terrain at rest. The seed is that of the sensors. Gains that are left out are
+  /// the robot's own. Throws std::invalid_argument for senses that are not valid.
   FullBodyPlant(std::shared_ptr<const Robot> robot, const PhysicsParameters& physics,
                 const SenseParameters& senses, std::uint64_t seed,
-                const Terrain& terrain = Terrain({}));
+                const Terrain& terrain = Terrain({}),
+                const std::optional<WholeBodyGains>& gains = {});
 
   const engine::Measurement& measurement() const override { return measurement_; }
   void step(const engine::WalkingTargets& targets, std::span<const AppliedForce> forces) override;
+  void set_gains(const WholeBodyGains& gains) override { controller_.set_gains(gains); }
   void release() override { released_ = true; }
   void describe(Frame& frame) const override;
   Vec3 point_of(const AppliedForce& force) const override;

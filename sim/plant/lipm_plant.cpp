@@ -15,7 +15,7 @@ LipmParameters lipm_parameters(const Robot& robot) {
   p.com_height = d.walk.com_height_m;
   p.sole = {0.5 * d.feet[0].sole.length, 0.5 * d.feet[0].sole.width};
   p.stance_width = d.walk.stance_width_m;
-  p.reach = 2.0 * d.walk.max_step_length_m;
+  p.reach = 2.0 * std::max(d.walk.max_step_length_m, d.walk.max_step_back_m);
   p.hip = hip_flywheel(robot);
   return p;
 }
@@ -108,8 +108,8 @@ void LipmPlant::step(const engine::WalkingTargets& targets, std::span<const Appl
   Vec3 force = Vec3::Zero();
   for (const AppliedForce& applied : forces) force += applied.force;
   // A constant force is a shift of the ZMP: w^2 (c - p) + F/m = w^2 (c - (p - F/(m w^2))).
-  const Vec2 effective = zmp + turn_flywheel(targets.zmp_shift) -
-                         force.head<2>() / (parameters_.mass * omega_ * omega_);
+  hip_shift_ = turn_flywheel(targets.zmp_shift);
+  const Vec2 effective = zmp + hip_shift_ - force.head<2>() / (parameters_.mass * omega_ * omega_);
   Eigen::Matrix2d state;
   state.row(0) = truth_.com.head<2>();
   state.row(1) = dcm();
@@ -143,6 +143,15 @@ void LipmPlant::describe(Frame& frame) const {
   frame.com_velocity = truth_.com_velocity;
   frame.dcm = dcm();
   frame.zmp = truth_.zmp;
+  const double weight = parameters_.mass * parameters_.gravity;
+  const engine::HipParameters& hip = parameters_.hip;
+  // The hips lean about +y and about -x.
+  frame.angular_momentum = hip.inertia * Vec3(-hip_rate_.y(), hip_rate_.x(), 0.0);
+  const Vec2 horizontal =
+      weight / parameters_.com_height * (truth_.com.head<2>() - truth_.zmp - hip_shift_);
+  frame.ground_forces[0] = {Vec3(truth_.zmp.x(), truth_.zmp.y(), 0.0),
+                            Vec3(horizontal.x(), horizontal.y(), weight)};
+  frame.ground_force_count = 1;
   frame.base_position = truth_.com;
   frame.base_orientation = Eigen::Quaterniond::Identity();
   frame.feet = truth_.feet;

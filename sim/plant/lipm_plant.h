@@ -65,7 +65,8 @@ class LipmPlant final : public Plant {
   Noise noise_;
   Vec2 hip_angle_ = Vec2::Zero();
   Vec2 hip_rate_ = Vec2::Zero();
-  bool released_ = false;  ///< a point mass that has fallen would only run away
+  Vec2 hip_shift_ = Vec2::Zero();  ///< of the ZMP by the hips, in the last tick [m]
+  bool released_ = false;          ///< a point mass that has fallen would only run away
 };
 
 }  // namespace stagger::sim

@@ -14,6 +14,8 @@
 
 namespace stagger::sim {
 
+struct WholeBodyGains;
+
 /// The full-body biped in Bullet, or the paper's linear inverted pendulum.
 enum class PlantKind : std::uint8_t { bullet, lipm };
 
@@ -29,6 +31,8 @@ class Plant {
   /// Advances by one tick under the targets and the pushes.
   virtual void step(const engine::WalkingTargets& targets,
                     std::span<const AppliedForce> forces) = 0;
+  /// Other gains from the next tick on; without effect on a plant that has none.
+  virtual void set_gains(const WholeBodyGains& /*gains*/) {}
   /// The robot has fallen: no control any more, it goes limp or stays where it is.
   virtual void release() = 0;
   /// Writes the plant's own part of the frame: base, joints, feet, loads, true CoM and ZMP.

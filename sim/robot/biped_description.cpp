@@ -6,14 +6,14 @@
 namespace stagger::sim {
 namespace {
 
-const Range angle = Range::between(-6.3, 6.3, "rad");
+const Range any_angle = Range::between(-6.3, 6.3, "rad");
 
 FootDescription read_foot(JsonReader& in) {
   FootDescription foot;
   foot.link = in.string("link");
   in.object("sole", [&](JsonReader& sole) {
     foot.sole.position = sole.vec3("position", Range::between(-1.0, 1.0, "m"));
-    foot.sole.rpy = sole.vec3_or("rpy", engine::Vec3::Zero(), angle);
+    foot.sole.rpy = sole.vec3_or("rpy", engine::Vec3::Zero(), any_angle);
     foot.sole.length = sole.number("length", Range::between(0.02, 1.0, "m"));
     foot.sole.width = sole.number("width", Range::between(0.02, 1.0, "m"));
   });
@@ -42,6 +42,7 @@ GivenWalk read_walk(JsonReader& in) {
   walk.t_ds_s = in.optional_number("t_ds_s", Range::between(0.0, 2.0, "s"));
   walk.t_init_s = in.optional_number("t_init_s", Range::between(0.1, 5.0, "s"));
   walk.max_step_length_m = in.optional_number("max_step_length_m", Range::between(0.01, 2.0, "m"));
+  walk.max_step_back_m = in.optional_number("max_step_back_m", Range::between(0.01, 2.0, "m"));
   walk.min_step_width_m = in.optional_number("min_step_width_m", Range::between(0.0, 1.0, "m"));
   walk.max_step_width_m = in.optional_number("max_step_width_m", Range::between(0.02, 2.0, "m"));
   return walk;
@@ -58,6 +59,7 @@ WalkDescription GivenWalk::over(const WalkDescription& defaults) const {
   walk.t_ds_s = t_ds_s.value_or(defaults.t_ds_s);
   walk.t_init_s = t_init_s.value_or(defaults.t_init_s);
   walk.max_step_length_m = max_step_length_m.value_or(defaults.max_step_length_m);
+  walk.max_step_back_m = max_step_back_m.value_or(defaults.max_step_back_m);
   walk.min_step_width_m = min_step_width_m.value_or(defaults.min_step_width_m);
   walk.max_step_width_m = max_step_width_m.value_or(defaults.max_step_width_m);
   return walk;
@@ -77,13 +79,13 @@ BipedDescription read_biped_description(JsonReader& in) {
   biped.urdf = in.string("urdf");
   biped.base = in.string("base");
   biped.torso = in.string("torso");
-  biped.torso_rpy = in.vec3_or("torso_rpy", engine::Vec3::Zero(), angle);
+  biped.torso_rpy = in.vec3_or("torso_rpy", engine::Vec3::Zero(), any_angle);
   in.object("feet", [&](JsonReader& feet) {
     feet.object("left", [&](JsonReader& foot) { biped.feet[0] = read_foot(foot); });
     feet.object("right", [&](JsonReader& foot) { biped.feet[1] = read_foot(foot); });
   });
-  biped.nominal_pose = in.numbers("nominal_pose", angle);
-  if (in.has("locked")) biped.locked = in.numbers("locked", angle);
+  biped.nominal_pose = in.numbers("nominal_pose", any_angle);
+  if (in.has("locked")) biped.locked = in.numbers("locked", any_angle);
   in.optional_object("motors", [&](JsonReader& motors) { biped.motors = read_motors(motors); });
   biped.mend = in.boolean_or("mend", false);
   in.optional_object("walk", [&](JsonReader& walk) { biped.given_walk = read_walk(walk); });

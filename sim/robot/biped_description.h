@@ -35,7 +35,8 @@ struct WalkDescription {
   double t_ss_s = 0.0;
   double t_ds_s = 0.0;
   double t_init_s = 0.0;
-  double max_step_length_m = 0.0;
+  double max_step_length_m = 0.0;  ///< forward
+  double max_step_back_m = 0.0;
   double min_step_width_m = 0.0;
   double max_step_width_m = 0.0;
 };
@@ -49,6 +50,7 @@ struct GivenWalk {
   std::optional<double> t_ds_s;
   std::optional<double> t_init_s;
   std::optional<double> max_step_length_m;
+  std::optional<double> max_step_back_m;
   std::optional<double> min_step_width_m;
   std::optional<double> max_step_width_m;
 

@@ -11,7 +11,7 @@ namespace {
 
 using engine::Side;
 
-constexpr double gravity = 9.81;                // [m/s^2]
+constexpr double standard_gravity = 9.81;       // [m/s^2]
 constexpr double greatest_effort = 1000.0;      // [N m]
 constexpr double greatest_effort_share = 10.0;  // of m g l
 
@@ -49,7 +49,7 @@ Edges edges_of(const Robot& robot, const Legs& legs, Side side) {
 std::map<std::string, MotorLimits> assumed_motors(const RobotModel& model, const Legs& legs,
                                                   Quirks& quirks) {
   std::map<std::string, MotorLimits> motors;
-  const double scale = model.mass() * gravity * legs.leg[0].length();
+  const double scale = model.mass() * standard_gravity * legs.leg[0].length();
   for (const Leg& leg : legs.leg) {
     for (const LegJoint& joint : leg.joints) {
       const Body& body = model.bodies[static_cast<std::size_t>(model.joint_index(joint.name)) + 1];
@@ -78,12 +78,12 @@ BipedFigures figures_of(const Robot& robot, const Legs& legs, const StandingPose
   BipedFigures figures;
   figures.mass = robot.model.mass();
   figures.com_height = pose.com_height;
-  figures.omega = std::sqrt(gravity / pose.com_height);
+  figures.omega = std::sqrt(standard_gravity / pose.com_height);
   figures.leg_length = legs.leg[0].length();
   figures.leg_share = pose.leg_share;
   figures.stance_width = pose.stance_width;
 
-  const double weight = figures.mass * gravity;
+  const double weight = figures.mass * standard_gravity;
   const Edges edges = edges_of(robot, legs, Side::left);
   double pitch = 0.0;
   double roll = 0.0;
@@ -101,7 +101,7 @@ BipedFigures figures_of(const Robot& robot, const Legs& legs, const StandingPose
   // All of the weight goes through the left foot, straight below the CoM. For hips and knee, whose
   // levers are those to what they carry, this is single support with the body moved over the foot.
   RigidBody body(robot.model);
-  body.update(nominal_state(robot), gravity);
+  body.update(nominal_state(robot), standard_gravity);
   Matrix6X jacobian(6, body.nv());
   const Vec3 below(body.com().x(), body.com().y(), 0.0);
   body.jacobian(robot.foot_body(Side::left), below, jacobian);

@@ -19,7 +19,7 @@ using engine::Side;
 constexpr double same_direction = 1e-4;
 constexpr double tilt_worth_telling = 0.01;  // [rad]
 
-double rounded(double value) { return std::round(value * 1e6) / 1e6 + 0.0; }
+double to_micrometres(double value) { return std::round(value * 1e6) / 1e6 + 0.0; }
 
 /// Roll, pitch, yaw about fixed axes, as a URDF means them; rotation_of() is the way back.
 Vec3 rpy_of(const Eigen::Matrix3d& r) {
@@ -138,15 +138,15 @@ class Finder {
             {"foot '" + foot.link + "'", text.str(), "flat in the nominal pose"});
       }
       const Vec3 centre = sole.pose.translation();
-      foot.sole.position = centre.unaryExpr(&rounded);
-      foot.sole.rpy = rpy_of(sole.pose.linear()).unaryExpr(&rounded);
+      foot.sole.position = centre.unaryExpr(&to_micrometres);
+      foot.sole.rpy = rpy_of(sole.pose.linear()).unaryExpr(&to_micrometres);
     }
     // The engine knows one size for both.
     const double length = std::min(soles[0].length, soles[1].length);
     const double width = std::min(soles[0].width, soles[1].width);
     for (FootDescription& foot : found_.robot.description.feet) {
-      foot.sole.length = rounded(length);
-      foot.sole.width = rounded(width);
+      foot.sole.length = to_micrometres(length);
+      foot.sole.width = to_micrometres(width);
     }
     if (std::abs(soles[0].length - soles[1].length) > 1e-3 ||
         std::abs(soles[0].width - soles[1].width) > 1e-3) {
@@ -176,7 +176,7 @@ class Finder {
     BipedDescription& biped = found_.robot.description;
     biped.torso = torso_of(found_.robot.model);
     const Eigen::Matrix3d frame = found_.robot.model.links.at(biped.torso).pose.linear();
-    biped.torso_rpy = rpy_of(frame.transpose() * found_.legs.axes).unaryExpr(&rounded);
+    biped.torso_rpy = rpy_of(frame.transpose() * found_.legs.axes).unaryExpr(&to_micrometres);
   }
 
   void tell_pose(const StandingPose& pose) {

@@ -16,8 +16,8 @@ using engine::Vec2;
 /// Points this far above the plane are part of it [m]: rounded figures, and the soft edge that any
 /// real sole has.
 constexpr double flat = 5e-4;
-constexpr double greatest_tilt = 0.7;  // [rad]
-constexpr double greatest_turn = 0.5;  // [rad]
+constexpr double greatest_tilt = 0.7;       // [rad]
+constexpr double greatest_sole_turn = 0.5;  // [rad]
 /// Turning the rectangle must gain this share of its area.
 constexpr double worth_turning = 0.05;
 constexpr double least_sole = 0.02;  // [m], of robot.json
@@ -201,7 +201,7 @@ FoundSole find_sole(const Body& foot, const Eigen::Matrix3d& axes) {
     const Vec2 edge = hull[(i + 1) % hull.size()] - hull[i];
     double turn = std::atan2(edge.y(), edge.x());
     turn -= 0.5 * M_PI * std::round(turn / (0.5 * M_PI));
-    if (std::abs(turn) > greatest_turn || std::abs(turn) < 1e-3) continue;
+    if (std::abs(turn) > greatest_sole_turn || std::abs(turn) < 1e-3) continue;
     std::vector<Vec2> turned;
     turned.reserve(hull.size());
     for (const Vec2& p : hull) turned.emplace_back(Eigen::Rotation2Dd(-turn) * p);

@@ -66,6 +66,7 @@ std::string description_json(const BipedDescription& biped) {
                   {"t_ds_s", readable(walk.t_ds_s)},
                   {"t_init_s", readable(walk.t_init_s)},
                   {"max_step_length_m", readable(walk.max_step_length_m)},
+                  {"max_step_back_m", readable(walk.max_step_back_m)},
                   {"min_step_width_m", readable(walk.min_step_width_m)},
                   {"max_step_width_m", readable(walk.max_step_width_m)}};
   return json.dump(2) + "\n";

@@ -1,5 +1,6 @@
 #include "sim/robot/mesh_file.h"
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -17,6 +18,8 @@ using engine::Vec3;
 
 // No robot's collision mesh needs more; a file that is greater is not what it says it is.
 constexpr std::uintmax_t max_file_bytes = 256U << 20U;
+constexpr std::uintmax_t max_stranger_bytes = 32U << 20U;
+constexpr std::size_t max_stranger_points = 500000;
 
 constexpr std::string_view package_scheme = "package://";
 constexpr std::string_view file_scheme = "file://";
@@ -52,6 +55,36 @@ std::optional<fs::path> find_in_package(const std::string& path, const fs::path&
   return std::nullopt;
 }
 
+/// Opens the one file, and none that it refers to (materials, parts of a scene, devices).
+class OneFile final : public Assimp::DefaultIOSystem {
+ public:
+  explicit OneFile(std::string name) : name_(std::move(name)) {}
+  bool Exists(const char* name) const override {
+    return name_ == name && DefaultIOSystem::Exists(name);
+  }
+  Assimp::IOStream* Open(const char* name, const char* mode) override {
+    return name_ == name ? DefaultIOSystem::Open(name, mode) : nullptr;
+  }
+
+ private:
+  std::string name_;
+};
+
+void check_stranger(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension != ".stl" && extension != ".obj" && extension != ".dae") {
+    throw std::runtime_error(file.string() +
+                             ": is no mesh that may be uploaded; allowed: .stl, "
+                             ".obj, .dae");
+  }
+  std::error_code ignored;
+  if (fs::file_size(file, ignored) > max_stranger_bytes) {
+    throw std::runtime_error(file.string() + ": is greater than 32 MB");
+  }
+}
+
 /// Directions in a frame with z up: rings, turned by 15 degrees so that none is square to an edge
 /// of a foot that looks along an axis; such a direction would leave it to chance which end it gets.
 std::vector<Vec3> directions() {
@@ -78,9 +111,21 @@ fs::path mesh_place(const std::string& uri) {
   return without_dots(path);
 }
 
-std::optional<fs::path> find_mesh(const std::string& uri, const fs::path& folder) {
+Trust trust_in(const fs::path& folder) {
+  std::error_code error;
+  const bool marked = fs::exists(folder / stranger_mark, error);
+  return marked || error ? Trust::stranger : Trust::own;
+}
+
+std::optional<fs::path> find_mesh(const std::string& uri, const fs::path& folder, Trust trust) {
   const fs::path place = mesh_place(uri);
   if (place.empty()) return std::nullopt;
+  if (trust == Trust::stranger) {
+    // mesh_place() has taken the ways out of the folder away; a link would be another.
+    std::error_code error;
+    if (!is_file(folder / place) || fs::is_symlink(folder / place, error)) return std::nullopt;
+    return folder / place;
+  }
   if (uri.starts_with(package_scheme)) {
     if (const auto found = find_in_package(uri.substr(package_scheme.size()), folder)) return found;
   } else {
@@ -94,12 +139,15 @@ std::optional<fs::path> find_mesh(const std::string& uri, const fs::path& folder
   return std::nullopt;
 }
 
-std::vector<Vec3> read_mesh(const fs::path& file) {
+std::vector<Vec3> read_mesh(const fs::path& file, Trust trust) {
+  if (trust == Trust::stranger) check_stranger(file);
   std::error_code ignored;
   if (fs::file_size(file, ignored) > max_file_bytes) {
     throw std::runtime_error(file.string() + ": is greater than 256 MB");
   }
   Assimp::Importer importer;
+  // The importer owns it.
+  if (trust == Trust::stranger) importer.SetIOHandler(new OneFile(file.string()));
   // Moves the vertices to where the file's nodes put them, and drops all but the positions.
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
                               aiComponent_NORMALS | aiComponent_TEXCOORDS | aiComponent_COLORS |
@@ -112,6 +160,10 @@ std::vector<Vec3> read_mesh(const fs::path& file) {
   std::vector<Vec3> points;
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
     const aiMesh& mesh = *scene->mMeshes[m];
+    if (trust == Trust::stranger && points.size() + mesh.mNumVertices > max_stranger_points) {
+      throw std::runtime_error(file.string() + ": has more than " +
+                               std::to_string(max_stranger_points) + " vertices");
+    }
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
       const aiVector3D& v = mesh.mVertices[i];
       points.emplace_back(v.x, v.y, v.z);

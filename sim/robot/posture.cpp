@@ -16,7 +16,7 @@ using engine::Vec2;
 // A state is as low as wanted when it is this near [m].
 constexpr double tolerance = 1e-9;
 // A description gives a height with its own rounding: no lower for so little [m].
-constexpr double rounding = 1e-4;
+constexpr double angle_rounding = 1e-4;
 
 /// Joints that turn a leg forwards, and the sign that makes positive angles turn about +y.
 struct Hinge {
@@ -36,7 +36,7 @@ class Bending {
   }
 
   RobotState until(double most) {
-    if (nominal_height_ <= most + rounding || !has_hinges_) return nominal_;
+    if (nominal_height_ <= most + angle_rounding || !has_hinges_) return nominal_;
     // Newton's method; begins with knees that bend enough to be away from straight.
     const double knee = hinges_[0][1].sign * nominal_.q[hinges_[0][1].joint];
     Vec2 turn(knee < 0.0 ? 0.1 : -0.1, knee < 0.0 ? -0.2 : 0.2);

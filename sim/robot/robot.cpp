@@ -17,7 +17,7 @@ namespace {
 
 using engine::Side;
 
-constexpr int least_leg_joints = 5;
+constexpr int fewest_leg_joints = 5;
 // How far the right sole may be from the left sole's plane in the nominal pose.
 constexpr double sole_height_tolerance = 1e-3;  // [m]
 constexpr double sole_tilt_tolerance = 2e-3;    // [rad]
@@ -89,10 +89,10 @@ class Checker {
     if (!check_link(pointer + "/link", robot_.description.feet[index(side)].link)) return false;
     int joints = 0;
     for (int i = robot_.foot_body(side); i > 0; i = robot_.model.bodies[i].parent) ++joints;
-    if (joints >= least_leg_joints) return true;
+    if (joints >= fewest_leg_joints) return true;
     errors_.add(pointer + "/link", "is carried by " + std::to_string(joints) +
                                        " joints; allowed: a leg of at least " +
-                                       std::to_string(least_leg_joints) + " joints");
+                                       std::to_string(fewest_leg_joints) + " joints");
     return false;
   }
 

@@ -11,7 +11,7 @@ namespace {
 
 using engine::Side;
 
-constexpr int most_iterations = 50;
+constexpr int most_slope_iterations = 50;
 constexpr double close_enough = 1e-12;  // [m] and [rad]
 
 Vec3 rotation_vector(const Eigen::Matrix3d& rotation) {
@@ -42,7 +42,7 @@ RobotState slope_state(const Robot& robot, const Vec3& normal) {
   Eigen::VectorXd error(15);
   Eigen::MatrixXd slope(15, 3 + joints);
   Matrix6X jacobian(6, 6 + joints);
-  for (int i = 0; i < most_iterations; ++i) {
+  for (int i = 0; i < most_slope_iterations; ++i) {
     const auto fill = [&](Eigen::Index row, const auto& rows) {
       slope.block(row, 0, rows.rows(), 3) = rows.leftCols(3);
       slope.block(row, 3, rows.rows(), joints) = rows.rightCols(joints);

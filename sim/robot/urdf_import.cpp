@@ -10,17 +10,20 @@
 #include <stdexcept>
 
 #include "sim/robot/inertia.h"
+#include "sim/robot/mesh_file.h"
 #include "sim/robot/urdf_shapes.h"
 #include "sim/robot/urdf_text.h"
 
 namespace stagger::sim {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unlimited = std::numeric_limits<double>::infinity();
 /// Some CAD exports write masses like this for links that only mark a place [kg].
 constexpr double marker_mass = 1e-4;
 /// Names that a quirk of many links or joints tells.
 constexpr std::size_t most_names = 3;
+/// Links, and pieces of collision geometry, of a URDF that comes from a stranger.
+constexpr std::size_t most_of_a_stranger = 500;
 
 const char* type_name(const urdf::Joint& joint) {
   switch (joint.type) {
@@ -258,10 +261,10 @@ class Importer {
   }
 
   void read_limits(const urdf::Joint& joint, Body& body) {
-    body.lower = -infinity;
-    body.upper = infinity;
-    body.effort = infinity;
-    body.velocity = infinity;
+    body.lower = -unlimited;
+    body.upper = unlimited;
+    body.effort = unlimited;
+    body.velocity = unlimited;
     if (joint.limits) take_limits(joint, body);  // continuous joints need none
     if (const auto motor = options_.motors.find(joint.name); motor != options_.motors.end()) {
       body.effort = motor->second.effort.value_or(body.effort);
@@ -319,12 +322,26 @@ class Importer {
   std::vector<Eigen::Matrix3d> at_zero_;  // orientation of every body with all joints at zero
 };
 
+/// What a stranger's robot may cost: every shape is one more for each tick of the physics.
+void check_size(const urdf::ModelInterface& urdf, const std::string& origin) {
+  std::size_t shapes = 0;
+  for (const auto& [name, link] : urdf.links_) shapes += link->collision_array.size();
+  const auto check = [&](std::size_t count, const char* what) {
+    if (count <= most_of_a_stranger) return;
+    throw std::runtime_error(origin + ": has " + std::to_string(count) + " " + what +
+                             "; allowed: at most " + std::to_string(most_of_a_stranger));
+  };
+  check(urdf.links_.size(), "links");
+  check(shapes, "pieces of collision geometry");
+}
+
 }  // namespace
 
 RobotModel import_urdf(const std::string& xml, const std::string& origin,
                        const ImportOptions& options, ImportReport* report) {
   std::vector<std::string> warnings;
   const urdf::ModelInterfaceSharedPtr urdf = parse_urdf(xml, origin, &warnings);
+  if (trust_in(options.folder) == Trust::stranger) check_size(*urdf, origin);
   ImportReport unread;
   ImportReport& told = report != nullptr ? *report : unread;
   RobotModel model = Importer(*urdf, origin, options, told).run();

@@ -54,14 +54,15 @@ void read_hull(const urdf::Mesh& mesh, const Eigen::Matrix3d& to_world,
   const Vec3 scale(mesh.scale.x, mesh.scale.y, mesh.scale.z);
   if (!scale.allFinite()) throw std::runtime_error("the scale of its mesh is not finite");
   result.uri = mesh.filename;
-  const auto file = find_mesh(mesh.filename, options.folder);
+  const Trust trust = trust_in(options.folder);
+  const auto file = find_mesh(mesh.filename, options.folder, trust);
   if (!file) {
     leave_out(result, "there is no file for its mesh " + mesh.filename);
     return;
   }
   std::vector<Vec3> points;
   try {
-    points = read_mesh(*file);
+    points = read_mesh(*file, trust);
   } catch (const std::runtime_error& error) {
     leave_out(result, std::string("its mesh cannot be read: ") + error.what());
     return;

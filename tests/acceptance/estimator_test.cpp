@@ -4,14 +4,10 @@
 
 #include "sim/experiment/trial.h"
 #include "sim/simulation.h"
+#include "tests/sim/kasaei.h"
 
 namespace stagger::sim {
 namespace {
-
-std::shared_ptr<const Robot> kasaei() {
-  static const std::shared_ptr<const Robot> robot = load_robot("robots/kasaei");
-  return robot;
-}
 
 SimulationConfig estimated(std::uint64_t seed) {
   SimulationConfig config;

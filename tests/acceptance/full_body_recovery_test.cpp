@@ -2,14 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "sim/simulation.h"
+#include "tests/sim/kasaei.h"
 
 namespace stagger::sim {
 namespace {
-
-std::shared_ptr<const Robot> kasaei() {
-  static const std::shared_ptr<const Robot> robot = load_robot("robots/kasaei");
-  return robot;
-}
 
 struct Recovered {
   std::string fall_reason;

@@ -79,12 +79,12 @@ TEST_P(FullBodyRobots, TakesAPushFromEverySide) {
     TrialSpec spec;
     spec.robot = GetParam();
     spec.settle_s = 3.0 * time();
-    spec.observe_s = 3.0 * time();
+    spec.observe_s = 5.0 * time();
     spec.push = PushSpec();
     const double angle = degrees * M_PI / 180.0;
     spec.push->direction = {std::cos(angle), std::sin(angle), 0.0};
     // The change of the CoM's velocity over sqrt(g h).
-    const double froude = 0.08;
+    const double froude = 0.16;
     spec.push->impulse_ns = froude * std::sqrt(9.81 * height()) * robot->model.mass();
     spec.push->duration_s = 0.01;
     spec.push->trigger = TimeTrigger{spec.settle_s + 0.25 * (moment++ % 4) * gait};

@@ -4,22 +4,18 @@
 #include <cmath>
 
 #include "sim/simulation.h"
+#include "tests/sim/kasaei.h"
 
 namespace stagger::sim {
 namespace {
 
-std::shared_ptr<const Robot> kasaei() {
-  static const std::shared_ptr<const Robot> robot = load_robot("robots/kasaei");
-  return robot;
-}
-
-struct Walked {
+struct WalkedTerrain {
   std::string fall;
   Vec2 way;  ///< of the CoM
 };
 
-Walked walk(const TerrainParameters& terrain, double seconds, std::uint64_t seed = 1,
-            const engine::WalkCommand& command = {0.3, 0.0, 0.0}) {
+WalkedTerrain walk(const TerrainParameters& terrain, double seconds, std::uint64_t seed = 1,
+                   const engine::WalkCommand& command = {0.3, 0.0, 0.0}) {
   SimulationConfig config;
   config.robot = kasaei();
   config.seed = seed;
@@ -39,7 +35,7 @@ TEST_P(FullBodyTerrainSlope, IsWalkedAtAboutTheSpeedOfTheCommand) {
   terrain.kind = TerrainKind::slope;
   terrain.slope_angle = 5.0 * M_PI / 180.0;
   terrain.uphill_angle = GetParam() * M_PI / 180.0;
-  const Walked walked = walk(terrain, 20.0);
+  const WalkedTerrain walked = walk(terrain, 20.0);
   EXPECT_EQ(walked.fall, "");
   EXPECT_NEAR(walked.way.norm(), 0.3 * (20.0 - 1.0), 0.1 * 0.3 * (20.0 - 1.0));
 }
@@ -49,7 +45,7 @@ TEST(FullBodyTerrain, TilesOfTwoCentimetresAreWalkedForAMinute) {
   terrain.kind = TerrainKind::uneven;
   terrain.unevenness = 0.02;
   for (const std::uint64_t seed : {1, 2}) {
-    const Walked walked = walk(terrain, 60.0, seed);
+    const WalkedTerrain walked = walk(terrain, 60.0, seed);
     EXPECT_EQ(walked.fall, "") << seed;
     EXPECT_GT(walked.way.norm(), 14.0) << seed;
   }

@@ -7,14 +7,10 @@
 #include "sim/plant/full_body_plant.h"
 #include "sim/plant/lipm_plant.h"
 #include "sim/simulation.h"
+#include "tests/sim/kasaei.h"
 
 namespace stagger::sim {
 namespace {
-
-std::shared_ptr<const Robot> kasaei() {
-  static const std::shared_ptr<const Robot> robot = load_robot("robots/kasaei");
-  return robot;
-}
 
 SimulationConfig config_of(PlantKind plant, TerrainKind terrain = TerrainKind::flat) {
   SimulationConfig config;

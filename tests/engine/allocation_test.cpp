@@ -149,6 +149,7 @@ class Everything {
 
   const WalkingEngine& engine() const { return engine_; }
   int lists() const { return lists_; }
+  int changes() const { return changes_; }      ///< of the parameters
   int refusals() const { return refusals_; }    ///< of lists that no leg can walk
   int hip_ticks() const { return hip_ticks_; }  ///< with half of the torque or more
   int moved_steps() const { return moved_steps_; }
@@ -164,6 +165,13 @@ class Everything {
     p.step_margin = 0.01;
     p.hip.torque = 60.0;
     return p;
+  }
+
+  static Tuning slower() {
+    Parameters p = parameters();
+    p.t_ss = 0.5;
+    p.lqr_zmp_weight = 20.0;
+    return Tuning(p);
   }
 
   Measurement start() {
@@ -182,6 +190,8 @@ class Everything {
   void command(int i, int time) {
     if (time == 0 || time == 4000 || time == 8000) {
       engine_.walk(commands_[static_cast<std::size_t>(i / 4000) % 4]);
+    } else if (time == 5000 || time == 12500) {  // in mid-walk, and standing
+      changes_ += engine_.change(tunings_[static_cast<std::size_t>(changes_) % 2]) ? 1 : 0;
     } else if (time == 9000) {
       engine_.stop();
     } else if (time == 9200) {  // before it has come to rest
@@ -237,11 +247,13 @@ class Everything {
   double omega_ = natural_frequency(parameters());
   Measurement measurement_;
   WalkingEngine engine_;
+  const std::array<Tuning, 2> tunings_{slower(), Tuning(parameters())};
   testing::PointMass mass_;
   std::mt19937 random_{1};
   std::normal_distribution<double> noise_{0.0, 1e-3};
   int lists_ = 0;
   int refusals_ = 0;
+  int changes_ = 0;
   int hip_ticks_ = 0;
   int moved_steps_ = 0;
   double worst_ = 0.0;
@@ -257,6 +269,8 @@ TEST(Allocation, NoHeapThrowOrLockInAHundredThousandTicks) {
   // The engine did work all the while: everything was used, and it is still up.
   EXPECT_EQ(robot.lists(), rounds);
   EXPECT_EQ(robot.refusals(), rounds);
+  EXPECT_EQ(robot.changes(), 2 * rounds);
+  EXPECT_FALSE(robot.engine().change_waits());
   EXPECT_GT(robot.hip_ticks(), 100);
   EXPECT_GT(robot.moved_steps(), 1000);
   EXPECT_GT(robot.engine().targets().step_count, 100U);

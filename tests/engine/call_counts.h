@@ -4,7 +4,7 @@
 #include <cstddef>
 
 // The sanitizers bring an allocator and an unwinder of their own.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef STAGGER_SANITIZED
 #define STAGGER_CALLS_ARE_COUNTED
 #endif
 

@@ -5,11 +5,10 @@
 #include "engine/capturability.h"
 #include "engine/dcm_goal.h"
 #include "engine/lipm.h"
+#include "tests/engine/omega.h"
 
 namespace stagger::engine {
 namespace {
-
-const double omega = std::sqrt(9.81);
 
 StepAbility paper_robot() {
   StepAbility ability;

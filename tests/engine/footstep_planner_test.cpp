@@ -196,11 +196,22 @@ TEST_P(RandomWalks, TheBodyMovesByTheTwistOfTheCommandThatIsWalked) {
   }
 }
 
-TEST(FootstepPlanner, AStraightWalkIsCutToTheLongestStep) {
-  const Parameters p = quick_gait();
-  const StepPattern pattern = step_pattern({5.0, 0.0, 0.0}, ReachRegion(p), p);
-  EXPECT_NEAR(pattern.offset[0].x(), p.max_step_length, 1e-9);
-  EXPECT_NEAR(pattern.command.vx, p.max_step_length / pattern.times.step(), 1e-9);
+TEST(FootstepPlanner, AStraightWalkIsCutToTheLongestStepThatWay) {
+  Parameters p = quick_gait();
+  p.max_step_back = 0.5 * p.max_step_length;
+  for (const double length : {p.max_step_length, -p.max_step_back}) {
+    const StepPattern pattern = step_pattern({10.0 * length, 0.0, 0.0}, ReachRegion(p), p);
+    EXPECT_NEAR(pattern.offset[0].x(), length, 1e-9);
+    EXPECT_NEAR(pattern.command.vx, length / pattern.times.step(), 1e-9);
+  }
+}
+
+TEST(StepTimes, AreShorterAtALowerSpeedBackThanForwardIfStepsBackAre) {
+  Parameters p = quick_gait();
+  p.max_step_back = 0.5 * p.max_step_length;
+  const double speed = 0.5 * p.max_step_length / (p.t_ss + p.t_ds);
+  EXPECT_DOUBLE_EQ(step_times({speed, 0.0, 0.0}, p).t_ss, p.t_ss);
+  EXPECT_LT(step_times({-speed, 0.0, 0.0}, p).t_ss, p.t_ss);
 }
 
 TEST(FootstepPlanner, ASidewaysWalkIsCutToTheWidestStep) {

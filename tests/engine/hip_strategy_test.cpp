@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "engine/lipm.h"
+#include "tests/engine/omega.h"
 
 namespace stagger::engine {
 namespace {
 
 constexpr double weight = 30.0 * 9.81;
-const double omega = std::sqrt(9.81);
 constexpr double tick = 0.002;
 
 HipParameters hip(double torque, double inertia, double angle) {

@@ -3,11 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/engine/integrate.h"
+#include "tests/engine/omega.h"
 
 namespace stagger::engine {
 namespace {
-
-const double omega = std::sqrt(9.81);
 
 TEST(Lipm, MovingZmpAgreesWithNumericalIntegration) {
   const ZmpSegment segment{0.7, {0.1, -0.2}, {0.5, 0.1}};

@@ -11,8 +11,8 @@
 namespace stagger::engine {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 /// What validate() says to these parameters; empty when it takes them.
 std::string complaint(const Parameters& p) {
@@ -47,6 +47,7 @@ const std::vector<Field>& fields() {
       {"ankle_reach (length)", [](Parameters& p) -> double& { return p.ankle_reach.x(); }, 0.0},
       {"ankle_reach (width)", [](Parameters& p) -> double& { return p.ankle_reach.y(); }, 0.0},
       {"max_step_length", [](Parameters& p) -> double& { return p.max_step_length; }, 0.0},
+      {"max_step_back", [](Parameters& p) -> double& { return p.max_step_back; }, 0.0},
       {"min_step_width", [](Parameters& p) -> double& { return p.min_step_width; }, 0.08},
       {"max_step_width", [](Parameters& p) -> double& { return p.max_step_width; }, 0.19},
       {"max_step_turn", [](Parameters& p) -> double& { return p.max_step_turn; }, 0.0},
@@ -65,11 +66,13 @@ const std::vector<Field>& fields() {
       {"step_gain", [](Parameters& p) -> double& { return p.step_gain; }, -0.1},
       {"step_margin", [](Parameters& p) -> double& { return p.step_margin; }, -0.1},
       {"step_freeze", [](Parameters& p) -> double& { return p.step_freeze; }, -0.1},
+      {"step_anew", [](Parameters& p) -> double& { return p.step_anew; }, -0.1},
       {"time_limit", [](Parameters& p) -> double& { return p.time_limit; }, -0.1},
       {"time_constant", [](Parameters& p) -> double& { return p.time_constant; }, 0.0},
       {"time_reach", [](Parameters& p) -> double& { return p.time_reach; }, 0.0},
       {"least_t_ss", [](Parameters& p) -> double& { return p.least_t_ss; }, 0.0},
       {"swing_speed", [](Parameters& p) -> double& { return p.swing_speed; }, 0.0},
+      {"swing_acceleration", [](Parameters& p) -> double& { return p.swing_acceleration; }, 0.0},
       {"contact_load", [](Parameters& p) -> double& { return p.contact_load; }, -1.0},
       {"landing_patience", [](Parameters& p) -> double& { return p.landing_patience; }, -0.1},
       {"hip.torque", [](Parameters& p) -> double& { return p.hip.torque; }, -1.0},
@@ -84,7 +87,7 @@ TEST(Parameters, TheDefaultsAreValid) { EXPECT_EQ(complaint({}), ""); }
 
 TEST(Parameters, EveryFieldRefusesNonsenseByItsName) {
   for (const Field& field : fields()) {
-    for (const double bad : {nan, infinity, -infinity, field.too_small}) {
+    for (const double bad : {no_number, no_limit, -no_limit, field.too_small}) {
       Parameters p;
       field.of(p) = bad;
       const std::string text = complaint(p);
@@ -103,7 +106,8 @@ TEST(Parameters, SaysValueAndAllowedRange) {
 
 TEST(Parameters, UnlimitedStaysAllowed) {
   Parameters p;
-  p.swing_speed = p.hip.rate = p.hip.torque = p.push_gate = p.landing_patience = 1e9;
+  p.swing_speed = p.swing_acceleration = p.step_anew = 1e9;
+  p.hip.rate = p.hip.torque = p.push_gate = p.landing_patience = 1e9;
   EXPECT_EQ(complaint(p), "");
 }
 
@@ -163,14 +167,14 @@ TEST(Parameters, NoEngineIsMadeOfNonsense) {
   EXPECT_EQ(refusal_of_an_engine({}, standing()), "");
   for (const Field& field : fields()) {
     Parameters p;
-    field.of(p) = nan;
+    field.of(p) = no_number;
     EXPECT_NE(refusal_of_an_engine(p, standing()), "") << field.name;
   }
   Measurement lost = standing();
-  lost.com.x() = nan;
+  lost.com.x() = no_number;
   EXPECT_NE(refusal_of_an_engine({}, lost), "");
   lost = standing();
-  lost.feet[1].yaw = infinity;
+  lost.feet[1].yaw = no_limit;
   EXPECT_NE(refusal_of_an_engine({}, lost), "");
 }
 

@@ -3,11 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/engine/integrate.h"
+#include "tests/engine/omega.h"
 
 namespace stagger::engine {
 namespace {
-
-const double omega = std::sqrt(9.81);
 
 // The paper's plan: six steps of 0.5 m, 0.8 s + 0.2 s, from f_0 = 0 to f_6 = 3 m. Expected nodes:
 // an independent solution of the boundary value problem, given to 1e-5 m.

@@ -4,11 +4,10 @@
 
 #include "engine/lipm.h"
 #include "engine/reference.h"
+#include "tests/engine/omega.h"
 
 namespace stagger::engine {
 namespace {
-
-const double omega = std::sqrt(9.81);
 
 /// A forward gait of 0.5 m steps, `left` seconds before touchdown, DCM off by `error`.
 StepSituation forward_gait(double t_ss, double t_ds, double left, const Vec2& error) {
@@ -136,7 +135,8 @@ TEST(StepTime, FindsTheLeastDistanceByAnyOther) {
 }
 
 TEST(ReachRegion, ScaledLengthLeavesTheWidth) {
-  const Parameters parameters;
+  Parameters parameters;
+  parameters.max_step_back = 0.4;
   const ReachRegion reach = ReachRegion(parameters).scaled_length(0.5);
   for (const Side side : {Side::left, Side::right}) {
     const double outward = -lateral_sign(side);
@@ -144,7 +144,7 @@ TEST(ReachRegion, ScaledLengthLeavesTheWidth) {
     const Vec2 far = reach.clamp(stance, {9.0, 9.0 * outward});
     EXPECT_NEAR(far.x(), 0.5 * parameters.max_step_length, 1e-12);
     EXPECT_NEAR(far.y() * outward, parameters.max_step_width, 1e-12);
-    EXPECT_NEAR(reach.clamp(stance, {-9.0, 0.0}).x(), -0.5 * parameters.max_step_length, 1e-12);
+    EXPECT_NEAR(reach.clamp(stance, {-9.0, 0.0}).x(), -0.5 * parameters.max_step_back, 1e-12);
     EXPECT_NEAR(reach.clamp(stance, Vec2::Zero()).y() * outward, parameters.min_step_width, 1e-12);
   }
 }

@@ -11,7 +11,7 @@ namespace stagger::engine {
 namespace {
 
 /// Feet so long, beside each other, that toes meet in a turn.
-Parameters long_feet() {
+Parameters with_long_feet() {
   Parameters p;
   p.foot_half_length = 0.13;
   p.foot_half_width = 0.05;
@@ -27,7 +27,7 @@ StepFault check(const Parameters& p, const Vec2& offset, double turn) {
 }
 
 TEST(StepLimits, TellWhatIsWrong) {
-  const Parameters p = long_feet();
+  const Parameters p = with_long_feet();
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(check(p, {0.0, -0.2}, 0.0), StepFault::none);
   EXPECT_EQ(check(p, {1.0, -0.2}, 0.0), StepFault::out_of_reach);
@@ -69,14 +69,14 @@ void expect_nearest_steps_keep_the_limits(const Parameters& p) {
 
 TEST(StepLimits, NearestStepKeepsThemAndLeavesGoodStepsAlone) {
   expect_nearest_steps_keep_the_limits(Parameters());
-  expect_nearest_steps_keep_the_limits(long_feet());
-  Parameters narrow = long_feet();
+  expect_nearest_steps_keep_the_limits(with_long_feet());
+  Parameters narrow = with_long_feet();
   narrow.max_step_width = 0.21;  // hardly wider than the stance
   expect_nearest_steps_keep_the_limits(narrow);
 }
 
 TEST(StepLimits, CrossingLandsBeforeOrBehindButNeverOnTheStanceFoot) {
-  Parameters p = long_feet();
+  Parameters p = with_long_feet();
   p.allow_crossing = true;
   p.min_step_width = -0.15;
   expect_nearest_steps_keep_the_limits(p);
@@ -86,7 +86,7 @@ TEST(StepLimits, CrossingLandsBeforeOrBehindButNeverOnTheStanceFoot) {
 }
 
 TEST(StepLimits, TheCorrectionIsNoLongerThanNeeded) {
-  const Parameters p = long_feet();
+  const Parameters p = with_long_feet();
   const ReachRegion reach(p);
   const Footstep stance{{0.0, 0.0}, 0.0, Side::left};
   const Footstep wanted{{0.05, -0.12}, 0.4, Side::right};

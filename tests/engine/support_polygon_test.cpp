@@ -7,10 +7,11 @@
 namespace stagger::engine {
 namespace {
 
-constexpr Sole sole{0.075, 0.0375};
+constexpr Sole small_sole{0.075, 0.0375};
 
 TEST(SupportPolygon, OneFootIsItsSole) {
-  const ConvexPolygon polygon = support_polygon(sole, {Vec3(1.0, 0.5, 0.0), std::numbers::pi / 2});
+  const ConvexPolygon polygon =
+      support_polygon(small_sole, {Vec3(1.0, 0.5, 0.0), std::numbers::pi / 2});
   ASSERT_EQ(polygon.size(), 4U);
   // Turned by 90 degrees the length lies along y.
   EXPECT_NEAR(polygon.margin({1.0, 0.5}), 0.0375, 1e-12);
@@ -20,7 +21,7 @@ TEST(SupportPolygon, OneFootIsItsSole) {
 
 TEST(SupportPolygon, TwoFeetAreTheirHull) {
   const ConvexPolygon polygon =
-      support_polygon(sole, {Vec3(0.0, 0.1, 0.0), 0.0}, {Vec3(0.3, -0.1, 0.0), 0.0});
+      support_polygon(small_sole, {Vec3(0.0, 0.1, 0.0), 0.0}, {Vec3(0.3, -0.1, 0.0), 0.0});
   EXPECT_EQ(polygon.size(), 6U);
   EXPECT_GT(polygon.margin({0.15, 0.0}), 0.0);  // between the feet
   EXPECT_LT(polygon.margin({0.3, 0.1}), 0.0);   // no foot is there
@@ -33,12 +34,12 @@ TEST(SupportPolygon, TwoFeetAreTheirHull) {
 
 TEST(SupportPolygon, FeetSideBySideHaveNoVertexTooMany) {
   const ConvexPolygon polygon =
-      support_polygon(sole, {Vec3(0.0, 0.1, 0.0), 0.0}, {Vec3(0.0, -0.1, 0.0), 0.0});
+      support_polygon(small_sole, {Vec3(0.0, 0.1, 0.0), 0.0}, {Vec3(0.0, -0.1, 0.0), 0.0});
   EXPECT_EQ(polygon.size(), 4U);
 }
 
 TEST(SupportPolygon, ClampFindsTheNearestPoint) {
-  const ConvexPolygon polygon = support_polygon(sole, {Vec3(0.0, 0.0, 0.0), 0.0});
+  const ConvexPolygon polygon = support_polygon(small_sole, {Vec3(0.0, 0.0, 0.0), 0.0});
   EXPECT_EQ(polygon.clamp({0.01, 0.02}), Vec2(0.01, 0.02));
   EXPECT_LT((polygon.clamp({0.2, 0.01}) - Vec2(0.075, 0.01)).norm(), 1e-12);
   EXPECT_LT((polygon.clamp({-1.0, 1.0}) - Vec2(-0.075, 0.0375)).norm(), 1e-12);

@@ -66,5 +66,51 @@ TEST(Swing, FeelsForTheGroundWhenItIsLate) {
   EXPECT_LT(late.velocity.z(), 0.0);
 }
 
+TEST(Swing, LiftsOnceMoreWithoutAJump) {
+  SwingTrajectory trajectory = swing();
+  const FootTarget before = trajectory.at(0.37);
+  EXPECT_LT(before.position.z(), 0.025);
+  const FootPose elsewhere{Vec3(0.5, -0.1, 0.02), 0.2};
+  trajectory.retarget(elsewhere, 0.37, 0.55);
+  trajectory.lift(0.05);
+  const FootTarget after = trajectory.at(0.37);
+  EXPECT_LT((after.position - before.position).norm(), 1e-12);
+  EXPECT_LT((after.velocity - before.velocity).norm(), 1e-10);
+  EXPECT_LT((after.acceleration - before.acceleration).norm(), 1e-8);
+  double highest = 0.0;
+  for (double t = 0.37; t < 0.55; t += 0.001) {
+    highest = std::max(highest, trajectory.at(t).position.z());
+  }
+  // It was on its way down.
+  EXPECT_GT(highest, 0.05);
+  EXPECT_LT(highest, 0.075);
+  EXPECT_LT((trajectory.at(0.55).position - elsewhere.position).norm(), 1e-12);
+}
+
+/// The greatest acceleration over the ground from `time` to the landing.
+double hardest(const SwingTrajectory& trajectory, double time) {
+  double most = 0.0;
+  for (double t = time; t <= trajectory.duration(); t += 1e-4) {
+    most = std::max(most, trajectory.at(t).acceleration.head<2>().norm());
+  }
+  return most;
+}
+
+TEST(Swing, TheLeastTimeKeepsToTheAcceleration) {
+  SwingTrajectory trajectory;
+  const double duration = least_time({0.3, 0.0}, Vec2::Zero(), 0.0, 50.0);
+  trajectory.start({}, {Vec3(0.3, 0.0, 0.0), 0.0}, duration, 0.05);
+  EXPECT_NEAR(hardest(trajectory, 0.0), 50.0, 0.1);
+
+  // From its way to another place: about.
+  const double now = 0.5 * duration;
+  const FootTarget foot = trajectory.at(now);
+  const Vec2 way = Vec2(0.3, -0.3) - foot.position.head<2>();
+  double left = duration;
+  for (int i = 0; i < 10; ++i) left = least_time(way, foot.velocity.head<2>(), left, 50.0);
+  trajectory.retarget({Vec3(0.3, -0.3, 0.0), 0.0}, now, now + left);
+  EXPECT_NEAR(hardest(trajectory, now), 50.0, 15.0);
+}
+
 }  // namespace
 }  // namespace stagger::engine

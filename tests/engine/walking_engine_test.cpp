@@ -27,6 +27,23 @@ TEST(WalkingEngine, StepsInPlaceOnItsReference) {
   EXPECT_NEAR(walk.com().x(), 0.0, 1e-9);
 }
 
+TEST(WalkingEngine, AFootThatLandsOnItsEdgeDoesNotLiftTheGround) {
+  Walk walk;
+  // A foot's middle comes down a centimetre in the tenth of a second after the edge.
+  PerFoot<int> ticks{1000, 1000};
+  walk.set_sensors([&](Measurement& seen) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      double& height = seen.feet[i].position.z();
+      ticks[i] = height > 0.0 ? 0 : ticks[i] + 1;
+      if (ticks[i] > 0) height += 0.01 * std::max(0.0, 1.0 - 0.01 * ticks[i]);
+    }
+  });
+  walk.engine().walk({});
+  walk.run(20.0);
+  EXPECT_EQ(walk.engine().targets().step_count, 38U);  // none of them late
+  EXPECT_EQ(walk.engine().targets().ground_slope, Vec2::Zero());
+}
+
 TEST(WalkingEngine, ReferenceVelocityNeverJumps) {
   Walk walk;
   walk.engine().walk({});
@@ -191,6 +208,70 @@ TEST(WalkingEngine, StepsSoonerRatherThanBeyondTheTimesReach) {
   EXPECT_LT(most.length, whole.length - 0.02);
   // Beyond this share still, where the time has done what it may.
   EXPECT_GT(most.length, 0.1);
+}
+
+/// A step in place, pushed so long after lift-off to the side of its swing foot.
+struct PushedStep {
+  double t_ss;        ///< that it took [s]
+  double width;       ///< of the feet, once it has landed [m]
+  double most_speed;  ///< of the swing foot over the ground [m/s]
+  bool stays_up;
+};
+
+PushedStep pushed_step(const Parameters& parameters, double after, double push) {
+  Walk walk(parameters);
+  walk.engine().walk({});
+  walk.run(4.05);
+  while (walk.engine().targets().state != WalkingState::single_support) walk.run(0.001);
+  walk.run(after);
+  const Side swing = other(walk.engine().targets().support_side);
+  walk.push({0.0, swing == Side::left ? push : -push});
+  PushedStep step{};
+  while (walk.engine().targets().state == WalkingState::single_support) {
+    step.t_ss = walk.engine().targets().t_ss;
+    const auto& foot = walk.engine().targets().feet[index(swing)];
+    step.most_speed = std::max(step.most_speed, foot.velocity.head<2>().norm());
+    walk.run(0.001);
+  }
+  const auto& feet = walk.measurement().feet;
+  step.width = std::abs(feet[0].position.y() - feet[1].position.y());
+  walk.run(4.0);
+  step.stays_up = walk.dcm().norm() < 10.0;
+  return step;
+}
+
+TEST(WalkingEngine, TakesALateStepAnewWhenItWouldMiss) {
+  Parameters parameters = quick();
+  parameters.swing_acceleration = 100.0;
+  const double late = parameters.t_ss - 0.5 * parameters.step_freeze;
+  const PushedStep missing = pushed_step(parameters, late, 0.6);
+  EXPECT_NEAR(missing.t_ss, parameters.t_ss, 1e-9);
+  EXPECT_NEAR(missing.width, parameters.stance_width, 1e-3);
+
+  parameters.step_anew = 0.1;
+  const PushedStep anew = pushed_step(parameters, late, 0.6);
+  EXPECT_GT(anew.t_ss, parameters.t_ss + 0.05);
+  EXPECT_LT(anew.t_ss, parameters.t_ss + parameters.time_limit + 1e-9);
+  EXPECT_GT(anew.width, parameters.stance_width + 0.15);
+  EXPECT_TRUE(anew.stays_up);
+
+  // A small miss is left to the next step, and with one of the strategies off all of them.
+  EXPECT_NEAR(pushed_step(parameters, late, 0.1).width, parameters.stance_width, 1e-3);
+  for (bool Strategies::*strategy : {&Strategies::step, &Strategies::time}) {
+    Parameters without = parameters;
+    without.strategies.*strategy = false;
+    EXPECT_NEAR(pushed_step(without, late, 0.6).t_ss, parameters.t_ss, 1e-9);
+  }
+}
+
+TEST(WalkingEngine, GivesAnAdjustedStepTheTimeThatItsFootNeeds) {
+  Parameters parameters = quick();
+  const double middle = 0.5 * parameters.t_ss;
+  const PushedStep fast = pushed_step(parameters, middle, 0.9);
+  parameters.swing_acceleration = 15.0;
+  const PushedStep slow = pushed_step(parameters, middle, 0.9);
+  EXPECT_GT(slow.t_ss, fast.t_ss + 0.03);
+  EXPECT_LT(slow.most_speed, fast.most_speed);
 }
 
 TEST(WalkingEngine, KeepsTheNominalTimeWhileNothingIsWrong) {

@@ -331,10 +331,22 @@ test('garbage on the socket harms nobody', async () => {
 });
 
 test('many requests at once are all answered', async () => {
+  // 32 commands may be under way at once; questions have places of their own.
   const answers = await Promise.all(
     Array.from({ length: 100 }, (_, i) =>
-      i % 2 ? server.get('/api/v1/simulation') : server.post('/api/v1/walk', {}),
+      i % 4 ? server.get('/api/v1/simulation') : server.post('/api/v1/walk', {}),
     ),
   );
   for (const answer of answers) assert.equal(answer.status, 200);
+});
+
+test('commands beyond those that may be under way are told to come again', async () => {
+  const commands = await Promise.all(Array.from({ length: 200 }, () => server.post('/api/v1/walk', {})));
+  const taken = commands.filter(({ status }) => status === 200);
+  assert.ok(taken.length >= 32, `${taken.length} taken`);
+  for (const command of commands.filter((answer) => !taken.includes(answer))) {
+    refused(command, 503);
+    assert.equal(command.headers['retry-after'], '1');
+  }
+  assert.equal((await server.post('/api/v1/walk', {})).status, 200);
 });

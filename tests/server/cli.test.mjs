@@ -17,7 +17,7 @@ test('--version and --help', async () => {
   assert.match(version.stdout, /^\d+\.\d+\.\d+\n$/);
   const help = await command(['--help']);
   assert.equal(help.code, 0);
-  for (const name of ['serve', 'run', 'trial', 'limits', 'robots', 'paper']) assert.match(help.stdout, RegExp(name));
+  for (const name of ['serve', 'run', 'trial', 'limits', 'campaign', 'robots', 'paper']) assert.match(help.stdout, RegExp(name));
 });
 
 test('bad options end with 2', async () => {
@@ -175,6 +175,16 @@ test('limits are the same on one core and on many', async () => {
   const many = await limits(...small, '--json', '--threads', '5');
   assert.equal(one.code, 0, one.stderr);
   assert.equal(one.stdout, many.stdout);
+});
+
+test('limits are those of the parameters that were given', async () => {
+  const forward = ['--directions', '0', '--phases', '0.1', '--seeds', '1', '--to', '0.8', '--json'];
+  const long = await limits(...forward);
+  const short = await limits(...forward, '--parameter', 'step.max_length=0.1');
+  assert.equal(short.code, 0, short.stderr);
+  const { conditions, results } = JSON.parse(short.stdout);
+  assert.deepEqual(conditions.parameters, { 'step.max_length': 0.1 });
+  assert.ok(results[0].pass_dv < JSON.parse(long.stdout).results[0].pass_dv);
 });
 
 test('a gate that is not passed ends with 1', async () => {

@@ -23,6 +23,10 @@ class Pair {
   void client_sends(const std::string& text) const {
     ASSERT_EQ(::write(ends_[1], text.data(), text.size()), static_cast<ssize_t>(text.size()));
   }
+  void client_leaves() {
+    close(ends_[1]);
+    ends_[1] = -1;
+  }
   std::string client_gets() const {
     char buffer[65536];
     const ssize_t count = recv(ends_[1], buffer, sizeof buffer, MSG_DONTWAIT);
@@ -85,11 +89,40 @@ TEST(Connection, APlainReadTakesWhatIsThere) {
   const Pair pair;
   Connection connection(pair.ours());
   pair.client_sends("abc");
-  EXPECT_TRUE(connection.wait_for_request(1s));
+  connection.begin_request();
   char buffer[8];
   EXPECT_EQ(connection.read(buffer, 2), 2);
   EXPECT_TRUE(connection.has_buffered());
   EXPECT_EQ(connection.read(buffer, 8), 1);
+}
+
+TEST(Connection, KnowsWhenAHeadIsComplete) {
+  const Pair pair;
+  Connection connection(pair.ours());
+  EXPECT_EQ(connection.take_in(), Connection::Head::incomplete);
+  pair.client_sends("GET / HTTP/1.1\r\nHost: x\r\n\r");
+  EXPECT_EQ(connection.take_in(), Connection::Head::incomplete);
+  pair.client_sends("\nGET /two HTTP/1.1\r\n\r\n");
+  EXPECT_EQ(connection.take_in(), Connection::Head::complete);
+  char buffer[28];
+  connection.begin_request();
+  EXPECT_EQ(connection.read(buffer, 27), 27);
+  EXPECT_EQ(connection.take_in(), Connection::Head::complete) << "the next one has come already";
+}
+
+TEST(Connection, AHeadThatIsTooLongIsForTheLibraryToRefuse) {
+  const Pair pair;
+  Connection connection(pair.ours());
+  pair.client_sends(std::string(20000, 'x'));
+  EXPECT_EQ(connection.take_in(), Connection::Head::complete);
+}
+
+TEST(Connection, AHeadThatIsCutShortIsGone) {
+  Pair pair;
+  Connection connection(pair.ours());
+  pair.client_sends("GET /");
+  pair.client_leaves();
+  EXPECT_EQ(connection.take_in(), Connection::Head::gone);
 }
 
 TEST(Connection, AClientThatTakesNothingStallsTheWrite) {
@@ -138,6 +171,28 @@ TEST(ConnectionRegistry, ShutsDownAllThatAreOpenAndAllThatComeLater) {
   Connection late(second.ours());
   const ConnectionRegistry::Entry other(registry, late);
   EXPECT_EQ(late.read(&byte, 1), 0);
+}
+
+TEST(ConnectionRegistry, CutsTheSlowestClientFirst) {
+  const Pair first;
+  const Pair second;
+  ConnectionRegistry registry;
+  Connection slow(first.ours());
+  Connection slower(second.ours());
+  const ConnectionRegistry::Entry entry(registry, slow);
+  const ConnectionRegistry::Entry other(registry, slower);
+  slower.begin_request();
+  std::this_thread::sleep_for(5ms);
+  slow.begin_request();
+  char byte = 0;
+  std::thread reader([&] { EXPECT_EQ(slower.read(&byte, 1), 0) << "cut off"; });
+  std::size_t cut = 0;
+  while (cut == 0) {
+    cut = registry.cut_slowest(5, std::chrono::steady_clock::now());
+    std::this_thread::sleep_for(1ms);
+  }
+  reader.join();
+  EXPECT_EQ(cut, 1U) << "who does not wait for its client stays";
 }
 
 }  // namespace

@@ -146,6 +146,42 @@ TEST_F(LiveSessionTest, TheSameCommandsAtTheSameTicksGiveTheSameWorld) {
   EXPECT_EQ(play(), play());
 }
 
+TEST_F(LiveSessionTest, TheJournalMakesTheWorldAgain) {
+  session_.pause("test");
+  session_.reset(pendulum(), "test");
+  session_.walk({.vx = 0.1}, "test");
+  session_.step(1000, "test");
+  sim::PushSpec push;
+  push.impulse_ns = 2.0;
+  session_.push(push, "test");
+  session_.step(20, "test");
+  session_.cancel_push(1, "test");
+  session_.change_strategies(
+      [](engine::Strategies present) {
+        present.time = false;
+        return present;
+      },
+      "test");
+  session_.step(1000, "test");
+
+  const SessionPtr session = hub_.session();
+  const auto journal = session->journal->entries();
+  ASSERT_EQ(journal.size(), 4U);
+  sim::Simulation world(session->config);
+  auto next = journal.begin();
+  while (world.next_tick() < 2020) {
+    for (; next != journal.end() && next->tick == world.next_tick(); ++next) {
+      sim::apply(world, next->command);
+    }
+    world.step();
+  }
+  EXPECT_EQ(world.state_hash(), session_.state().state_hash);
+  EXPECT_EQ(hub_.latest()->state_hash, session_.state().state_hash);
+
+  session_.reset(pendulum(), "test");
+  EXPECT_TRUE(hub_.session()->journal->entries().empty());
+}
+
 TEST_F(LiveSessionTest, CommandsAreAnsweredDuringALongStep) {
   session_.pause("test");
   const std::uint64_t start = session_.state().tick;
@@ -199,7 +235,7 @@ TEST_F(LiveSessionTest, SubscribersHearOfCommandsAndSteps) {
   session_.pause("test");
   const auto subscriber = hub_.add();
   Subscription subscription;
-  subscription.rate_hz = 1000.0;
+  subscription.rates = {1000.0};
   subscriber->subscribe(subscription, "ok", hub_.latest());
   session_.step(3, "someone");
   std::vector<std::uint64_t> ticks;

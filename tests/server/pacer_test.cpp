@@ -21,6 +21,33 @@ TEST(Pacer, TicksOnTimeAreNotLate) {
   EXPECT_NEAR(pacer.real_time_factor(), 1.0, 0.01);
 }
 
+TEST(Pacer, GoesAtTheSpeedThatIsAskedFor) {
+  Pacer pacer(1ms);
+  pacer.set_speed(0.01, start);
+  for (int i = 0; i < 30; ++i) {
+    EXPECT_EQ(pacer.due(), start + i * 100ms);
+    pacer.tick(pacer.due());
+  }
+  EXPECT_NEAR(pacer.real_time_factor(), 0.01, 0.002);
+  pacer.set_speed(4.0, start);
+  pacer.tick(start);
+  EXPECT_EQ(pacer.due(), start + 250us);
+  EXPECT_EQ(pacer.late_ticks(), 0U);
+}
+
+TEST(Pacer, AsFastAsItGoesNoTickIsLate) {
+  Pacer pacer(1ms);
+  pacer.set_speed(std::nullopt, start);
+  Pacer::Time now = start;
+  for (int i = 0; i < 3000; ++i) {
+    EXPECT_LE(pacer.due(), now);
+    pacer.tick(now);
+    now += 10ms;
+  }
+  EXPECT_EQ(pacer.late_ticks(), 0U);
+  EXPECT_NEAR(pacer.real_time_factor(), 0.1, 0.01);
+}
+
 TEST(Pacer, CatchesUpWithAShortStall) {
   Pacer pacer(1ms);
   pacer.restart(start);

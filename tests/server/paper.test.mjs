@@ -5,6 +5,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { test } from 'node:test';
 import { command } from './support.mjs';
+import { wellFormed } from './well_formed.mjs';
 
 // A push so late that the ladder of forces is climbed on a short gait.
 const timing = ['--t-ss', '0.4', '--t-ds', '0.1', '--t-left', '0.3'];
@@ -22,30 +23,6 @@ async function inFolder(use) {
   } finally {
     fs.rmSync(folder, { recursive: true });
   }
-}
-
-/** Every opened tag is closed, in order; attributes are quoted; ids are unique. Returns the tags. */
-function wellFormed(xml) {
-  const open = [];
-  const tags = [];
-  const ids = new Set();
-  const body = xml.replace(/^<!DOCTYPE html>\n/, '');
-  const markup = /<(\/?)([a-zA-Z][\w-]*)((?:\s+[\w:-]+="[^"<]*")*)\s*(\/?)>|<|&(?!(?:amp|lt|gt|quot|#39);)/g;
-  for (const [text, closing, name, attributes, empty] of body.matchAll(markup)) {
-    assert.ok(name, `stray ${text}`);
-    if (closing) {
-      assert.equal(open.pop(), name);
-      continue;
-    }
-    tags.push(name);
-    if (!empty) open.push(name);
-    const id = /\sid="([^"]*)"/.exec(attributes)?.[1];
-    if (id === undefined) continue;
-    assert.ok(!ids.has(id), `id ${id} twice`);
-    ids.add(id);
-  }
-  assert.deepEqual(open, []);
-  return tags;
 }
 
 test('the plan agrees with an independent solution', async () => {

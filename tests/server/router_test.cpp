@@ -53,6 +53,15 @@ TEST(Router, FindsTheHandler) {
   EXPECT_EQ(ask("GET", "/api/v1/things/7/files/a/b.urdf").body, "a/b.urdf");
 }
 
+TEST(Router, TellsItsTableAndWhichRouteAnswered) {
+  EXPECT_EQ(make().table().size(), 6U);
+  EXPECT_EQ(make().table()[2], "GET /api/v1/things/{id}");
+  EXPECT_EQ(ask("GET", "/api/v1/things/7").route, "/api/v1/things/{id}");
+  EXPECT_EQ(ask("POST", "/api/v1/fail").route, "/api/v1/fail");
+  EXPECT_EQ(ask("DELETE", "/api/v1/things").route, "/api/v1/things");
+  EXPECT_EQ(ask("GET", "/api/v1/nothing").route, "");
+}
+
 TEST(Router, TellsAnUnknownPathFromAWrongMethod) {
   EXPECT_EQ(ask("GET", "/api/v1/nothing").status, 404);
   EXPECT_EQ(ask("POST", "/api/v1/nothing").status, 404);

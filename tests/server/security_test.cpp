@@ -58,5 +58,43 @@ TEST(Security, ServedToOthersItTakesAddressesAndItsOwnName) {
   EXPECT_FALSE(Gatekeeper("robot.lan", 8080).refusal("robot.lan:8080", ""));
 }
 
+TEST(Security, NamesOnTheListAreLetIn) {
+  const Gatekeeper gate("127.0.0.1", 8080, {{"robot.example", "lab:9000"}, {}});
+  for (const char* host : {"robot.example", "Robot.Example:80", "robot.example:443", "lab:9000"}) {
+    EXPECT_FALSE(gate.refusal(host, "")) << host;
+  }
+  for (const char* host : {"lab", "lab:9001", "x.robot.example", "robot.example.evil.com"}) {
+    EXPECT_TRUE(gate.refusal(host, "")) << host;
+  }
+  // A proxy before it may speak TLS.
+  EXPECT_FALSE(gate.refusal("robot.example", "https://robot.example"));
+  EXPECT_TRUE(gate.refusal("robot.example", "https://evil.com"));
+}
+
+TEST(Security, OriginsOnTheListAreLetIn) {
+  const Gatekeeper gate("127.0.0.1", 8080, {{}, {"https://pages.example"}});
+  EXPECT_FALSE(gate.refusal("127.0.0.1:8080", "https://pages.example"));
+  EXPECT_TRUE(gate.is_allowed_origin("https://pages.example"));
+  for (const char* origin : {"http://pages.example", "https://pages.example:8443", "null", ""}) {
+    EXPECT_FALSE(gate.is_allowed_origin(origin)) << origin;
+  }
+  EXPECT_TRUE(gate.refusal("evil.com", "https://pages.example")) << "the Host still counts";
+}
+
+TEST(Security, ListsTakeNamesOnly) {
+  for (const char* host : {"robot.example", "robot.example:80", "10.0.0.1", "[::1]:80"}) {
+    EXPECT_FALSE(why_no_host(host)) << host;
+  }
+  for (const char* host : {"", "a b", "*", "http://a", "a:b", "a/b", "a;b", "a\r\nb"}) {
+    EXPECT_TRUE(why_no_host(host)) << host;
+  }
+  EXPECT_FALSE(why_no_origin("https://pages.example"));
+  EXPECT_FALSE(why_no_origin("http://pages.example:8000"));
+  for (const char* origin :
+       {"", "null", "*", "pages.example", "https://", "https://a/b", "ftp://a"}) {
+    EXPECT_TRUE(why_no_origin(origin)) << origin;
+  }
+}
+
 }  // namespace
 }  // namespace stagger::server

@@ -60,8 +60,8 @@ test('a port that is taken is refused with 3', () =>
     assert.match(second.stderr, /cannot listen/);
   }));
 
-test('an address that others can reach takes --allow-remote', async () => {
+test('an address that others can reach takes a key', async () => {
   const refused = await command(['serve', '--port', '0', '--host', '0.0.0.0']);
   assert.equal(refused.code, 2);
-  assert.match(refused.stderr, /--allow-remote/);
+  assert.match(refused.stderr, /--api-key-file/);
 });

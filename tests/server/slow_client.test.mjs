@@ -28,7 +28,7 @@ test('a stalled client is dropped and counted; the others have no gap', async ()
     await stream.close();
   }
   // The simulation has not stopped for a moment: it never waits for anybody. (How late ticks are is
-  // measured by tests/bench/stream_load.mjs; here the machine may be busy with anything.)
+  // measured by tests/bench/load.mjs; here the machine may be busy with anything.)
   assert.ok(after.tick - before.tick > 1000);
   assert.equal(after.running, true);
   stalled.destroy();

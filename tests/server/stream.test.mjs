@@ -72,7 +72,7 @@ test('two clients of one rate see the same', async () => {
 
 test('commands, steps and pushes are told as events, with their source', async () => {
   const stream = await server.stream();
-  await stream.subscribe({ rate_hz: 1 });
+  await stream.subscribe({ rate_hz: 1000, channels: ['com'] });
   const headers = { 'x-stagger-client': 'a test' };
   const { json: push } = await server.post('/api/v1/pushes', { impulse_ns: 3 }, { headers });
   const command = await stream.first((m) => m.kind === 'command' && /^push/.test(m.text));
@@ -90,6 +90,67 @@ test('commands, steps and pushes are told as events, with their source', async (
   await server.request('DELETE', `/api/v1/pushes/${late.json.id}`);
   await stream.first((m) => m.kind === 'push_cancelled');
   await stream.close();
+  // Those of a tick come before its data.
+  const told = stream.messages.filter(({ op }) => op === 'event' || op === 'data');
+  const order = told.map(({ op, tick }) => 2 * tick + (op === 'data' ? 1 : 0));
+  assert.deepEqual(order, [...order].sort((a, b) => a - b));
+});
+
+test('channels come at rates and with fields of their own', async () => {
+  const stream = await server.stream();
+  const channels = [
+    { name: 'com', rate_hz: 100, fields: ['z', 'x'] },
+    { name: 'dcm', rate_hz: 20 },
+    { name: 'zmp', rate_hz: 100, fields: ['y'] },
+  ];
+  const answer = await stream.subscribe({ channels });
+  assert.deepEqual(answer.rates_hz, [100, 20]);
+  assert.deepEqual(answer.layout.map(({ name, rate }) => [name, rate]),
+    [['com', 0], ['dcm', 1], ['zmp', 0]]);
+  assert.deepEqual(answer.layout[0].fields, ['x', 'z']);
+  await eventually(() => stream.all('data').length > 50, 'data');
+  const data = stream.all('data').slice(1);
+  assert.ok(withoutGaps(data));
+  for (const { tick, v } of data) {
+    assert.equal(tick % 10, 0);
+    assert.deepEqual(Object.keys(v), tick % 50 === 0 ? ['com', 'dcm', 'zmp'] : ['com', 'zmp']);
+    assert.deepEqual([v.com.length, v.zmp.length], [2, 1]);
+  }
+  await stream.close();
+});
+
+test('binary messages hold what the text holds, to the bit or to single precision', async () => {
+  const formats = ['json', 'float64', 'float32'];
+  const streams = await Promise.all(formats.map(() => server.stream()));
+  const channels = [
+    { name: 'com', rate_hz: 50 },
+    { name: 'left_foot', rate_hz: 10, fields: ['yaw', 'x'] },
+    { name: 'preview', rate_hz: 50, fields: ['x', 'side'] },
+    { name: 'support_polygon', rate_hz: 50 },
+    { name: 'joint_position', rate_hz: 50 },
+  ];
+  for (const [i, stream] of streams.entries()) {
+    assert.equal((await stream.subscribe({ format: formats[i], channels })).format, formats[i]);
+  }
+  for (const stream of streams) await eventually(() => stream.all('data').length > 60, 'data');
+  const [text, double, single] = streams.map(
+    (stream) => new Map(stream.all('data').slice(1).map((message) => [message.tick, message])),
+  );
+  const common = [...text.keys()].filter((tick) => double.has(tick) && single.has(tick));
+  assert.ok(common.length > 20);
+  for (const tick of common) {
+    assert.equal(double.get(tick).t, text.get(tick).t);
+    assert.deepEqual(double.get(tick).v, text.get(tick).v);
+    const rounded = Object.entries(text.get(tick).v).map(([name, values]) => [
+      name,
+      values.map((value) => (value === null ? null : Math.fround(value))),
+    ]);
+    assert.deepEqual(single.get(tick).v, Object.fromEntries(rounded));
+  }
+  for (const stream of streams) {
+    assert.ok(withoutGaps(stream.all('data')));
+    await stream.close();
+  }
 });
 
 test('events can be left out', async () => {
@@ -153,7 +214,8 @@ test('a new subscription replaces the old one', async () => {
 test('what is not understood is answered, and the connection stays', async () => {
   const stream = await server.stream();
   const wrong = ['nonsense', '[]', '{"op":"fly"}', '{"op":"subscribe","rate_hz":0}',
-    '{"op":"subscribe","channels":["nope"]}', '{"op":"subscribe","speed":1}', ' '.repeat(66_000)];
+    '{"op":"subscribe","channels":["nope"]}', '{"op":"subscribe","speed":1}', ' '.repeat(66_000),
+    '{"op":"subscribe","channels":[{"name":"com","fields":["w"]}]}'];
   for (const [i, text] of wrong.entries()) {
     stream.send(text);
     await eventually(() => stream.all('error').length === i + 1, text.slice(0, 40));

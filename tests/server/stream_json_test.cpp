@@ -2,13 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace stagger::server {
 namespace {
 
-std::shared_ptr<SessionInfo> session() {
+std::shared_ptr<SessionInfo> kasaei_session() {
   auto info = std::make_shared<SessionInfo>();
   info->id = "0011";
   info->robot = "kasaei";
@@ -16,16 +15,16 @@ std::shared_ptr<SessionInfo> session() {
   return info;
 }
 
-std::vector<std::string> errors_of(const std::string& text) {
+std::vector<std::string> subscription_errors(const std::string& text) {
   sim::JsonErrors errors;
-  read_subscription(text, *session(), errors);
+  read_subscription(text, *kasaei_session(), errors);
   std::vector<std::string> pointers;
   for (const sim::JsonError& error : errors.list()) pointers.push_back(error.pointer);
   return pointers;
 }
 
 TEST(StreamJson, HelloDescribesEveryChannel) {
-  const auto info = session();
+  const auto info = kasaei_session();
   const auto hello = nlohmann::json::parse(hello_text(*info));
   EXPECT_EQ(hello["op"], "hello");
   EXPECT_EQ(hello["protocol"], 1);
@@ -39,60 +38,6 @@ TEST(StreamJson, HelloDescribesEveryChannel) {
     EXPECT_FALSE(channel["meaning"].get<std::string>().empty());
     EXPECT_GE(channel["components"].size(), 1U);
   }
-}
-
-TEST(StreamJson, DataHoldsTheAskedChannelsToTheBit) {
-  FrameMessage message;
-  message.session = session();
-  message.frame.tick = 5230;
-  message.frame.time = 5.23;
-  message.frame.dcm = sim::Vec2(0.1, 1.0 / 3.0);
-  Subscription wanted;
-  wanted.channels = {"dcm", "joint_position"};
-  message.frame.joint_count = 1;
-  message.frame.joint_position[0] = -1e-17;
-  DataWriter writer;
-  const auto data =
-      nlohmann::json::parse(writer.text(message, std::make_shared<const Subscription>(wanted), 17));
-  EXPECT_EQ(data["op"], "data");
-  EXPECT_EQ(data["seq"], 17);
-  EXPECT_EQ(data["tick"], 5230);
-  EXPECT_EQ(data["t"], 5.23);
-  EXPECT_EQ(data["v"].size(), 2U);
-  EXPECT_EQ(data["v"]["dcm"][1].get<double>(), 1.0 / 3.0);
-  EXPECT_EQ(data["v"]["joint_position"][0].get<double>(), -1e-17);
-}
-
-TEST(StreamJson, DataOfAllChannelsIsAsLongAsHelloSays) {
-  FrameMessage message;
-  message.session = session();
-  message.frame.joint_count = 1;
-  DataWriter writer;
-  const auto data =
-      nlohmann::json::parse(writer.text(message, std::make_shared<const Subscription>(), 0));
-  for (const sim::Channel& channel : message.session->channels) {
-    ASSERT_TRUE(data["v"].contains(channel.name)) << channel.name;
-    const std::size_t size = data["v"][channel.name].size();
-    EXPECT_EQ(size % channel.components.size(), 0U) << channel.name;
-    EXPECT_LE(size, channel.components.size() * channel.max_repeat) << channel.name;
-    if (channel.max_repeat == 1) {
-      EXPECT_EQ(size, channel.components.size()) << channel.name;
-    }
-  }
-}
-
-TEST(StreamJson, WhatIsNotFiniteIsNull) {
-  FrameMessage message;
-  message.session = session();
-  message.frame.dcm =
-      sim::Vec2(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity());
-  Subscription wanted;
-  wanted.channels = {"dcm"};
-  DataWriter writer;
-  const auto data =
-      nlohmann::json::parse(writer.text(message, std::make_shared<const Subscription>(wanted), 0));
-  EXPECT_TRUE(data["v"]["dcm"][0].is_null());
-  EXPECT_TRUE(data["v"]["dcm"][1].is_null());
 }
 
 TEST(StreamJson, AnEventTellsItsSource) {
@@ -111,25 +56,77 @@ TEST(StreamJson, AnEventTellsItsSource) {
 
 TEST(StreamJson, ReadsSubscriptions) {
   sim::JsonErrors errors;
-  const Subscription s = read_subscription(
-      R"({"op":"subscribe","rate_hz":30,"channels":["com"],"events":false})", *session(), errors);
+  const Subscription s =
+      read_subscription(R"({"op":"subscribe","rate_hz":30,"channels":["com"],"events":false})",
+                        *kasaei_session(), errors);
   EXPECT_TRUE(errors.empty());
-  EXPECT_EQ(s.rate_hz, 30.0);
-  EXPECT_EQ(s.channels, std::vector<std::string>{"com"});
+  EXPECT_EQ(s.rates, std::vector<double>{30.0});
+  ASSERT_TRUE(s.channels);
+  ASSERT_EQ(s.channels->size(), 1U);
+  EXPECT_EQ(s.channels->front().name, "com");
   EXPECT_FALSE(s.events);
-  EXPECT_TRUE(errors_of(R"({"op":"subscribe"})").empty());
+  EXPECT_EQ(s.format, StreamFormat::json);
+  EXPECT_TRUE(subscription_errors(R"({"op":"subscribe"})").empty());
+}
+
+TEST(StreamJson, ReadsChannelsWithRatesAndFieldsOfTheirOwn) {
+  sim::JsonErrors errors;
+  const Subscription s = read_subscription(
+      R"({"op":"subscribe","rate_hz":50,"format":"float32","channels":[
+          {"name":"com","rate_hz":200,"fields":["z","x"]},{"name":"dcm"},{"name":"zmp"}]})",
+      *kasaei_session(), errors);
+  EXPECT_TRUE(errors.empty());
+  EXPECT_EQ(s.rates, (std::vector<double>{200.0, 50.0}));
+  EXPECT_EQ(s.format, StreamFormat::float32);
+  ASSERT_EQ(s.channels->size(), 3U);
+  EXPECT_EQ(s.channels->at(0).rate, 0U);
+  EXPECT_EQ(s.channels->at(0).fields, (std::vector<std::string>{"z", "x"}));
+  EXPECT_EQ(s.channels->at(2).rate, 1U);
+
+  const auto answer = nlohmann::json::parse(subscribed_text(s, *kasaei_session()));
+  EXPECT_EQ(answer["format"], "float32");
+  EXPECT_EQ(answer["rates_hz"], nlohmann::json({200.0, 50.0}));
+  EXPECT_EQ(answer["channels"], nlohmann::json({"com", "dcm", "zmp"}));
+  EXPECT_EQ(answer["layout"][0]["rate"], 0);
+  EXPECT_EQ(answer["layout"][0]["fields"], nlohmann::json({"x", "z"})) << "in hello's order";
 }
 
 TEST(StreamJson, RefusesWhatIsNotUnderstood) {
   using List = std::vector<std::string>;
-  EXPECT_EQ(errors_of("hello"), List{""});
-  EXPECT_EQ(errors_of("[]"), List{""});
-  EXPECT_EQ(errors_of(R"({"op":"unsubscribe"})"), List{"/op"});
-  EXPECT_EQ(errors_of(R"({"rate_hz":10})"), List{"/op"});
-  EXPECT_EQ(errors_of(R"({"op":"subscribe","rate_hz":1001})"), List{"/rate_hz"});
-  EXPECT_EQ(errors_of(R"({"op":"subscribe","rate_hz":0.5})"), List{"/rate_hz"});
-  EXPECT_EQ(errors_of(R"({"op":"subscribe","channels":["com","nope"]})"), List{"/channels"});
-  EXPECT_EQ(errors_of(R"({"op":"subscribe","rate":10})"), List{"/rate"});
+  EXPECT_EQ(subscription_errors("hello"), List{""});
+  EXPECT_EQ(subscription_errors("[]"), List{""});
+  EXPECT_EQ(subscription_errors(R"({"op":"unsubscribe"})"), List{"/op"});
+  EXPECT_EQ(subscription_errors(R"({"rate_hz":10})"), List{"/op"});
+  EXPECT_EQ(subscription_errors(R"({"op":"subscribe","rate_hz":1001})"), List{"/rate_hz"});
+  EXPECT_EQ(subscription_errors(R"({"op":"subscribe","rate_hz":0.5})"), List{"/rate_hz"});
+  EXPECT_EQ(subscription_errors(R"({"op":"subscribe","channels":["com","nope"]})"),
+            List{"/channels"});
+  EXPECT_EQ(subscription_errors(R"({"op":"subscribe","rate":10})"), List{"/rate"});
+  EXPECT_EQ(subscription_errors(R"({"op":"subscribe","format":"text"})"), List{"/format"});
+  EXPECT_EQ(subscription_errors(R"({"op":"subscribe","channels":["com","com"]})"),
+            List{"/channels"});
+  EXPECT_EQ(subscription_errors(R"({"op":"subscribe","channels":"com"})"), List{"/channels"});
+  EXPECT_EQ(subscription_errors(R"({"op":"subscribe","channels":[{"rate_hz":1}]})").front(),
+            "/channels/0/name");
+  EXPECT_EQ(subscription_errors(R"({"op":"subscribe","channels":[{"name":"com","rate_hz":0}]})"),
+            List{"/channels/0/rate_hz"});
+  EXPECT_EQ(subscription_errors(R"({"op":"subscribe","channels":[{"name":"com","fields":["w"]}]})"),
+            List{"/channels/0/fields"});
+  EXPECT_EQ(
+      subscription_errors(R"({"op":"subscribe","channels":[{"name":"com","fields":["x","x"]}]})"),
+      List{"/channels/0/fields"});
+  EXPECT_EQ(subscription_errors(R"({"op":"subscribe","channels":[{"name":"com","unit":"m"}]})"),
+            List{"/channels/0/unit"});
+}
+
+TEST(StreamJson, RefusesMoreRatesThanAMessageCanName) {
+  std::string channels;
+  for (std::size_t i = 0; i <= Subscription::max_rates; ++i) {
+    channels += (i > 0 ? "," : "") + (R"({"name":")" + kasaei_session()->channels.at(i).name +
+                                      R"(","rate_hz":)" + std::to_string(i + 1) + "}");
+  }
+  EXPECT_EQ(subscription_errors(R"({"op":"subscribe","channels":[)" + channels + "]}"),
+            std::vector<std::string>{"/channels"});
 }
 
 }  // namespace

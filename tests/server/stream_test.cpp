@@ -34,6 +34,12 @@ class FakeSocket final : public StreamSocket {
     changed_.notify_all();
     return Sent::yes;
   }
+  Sent send_binary(const std::string& bytes) override {
+    const std::lock_guard lock(mutex_);
+    outgoing_.push_back({{"op", "binary"}, {"size", bytes.size()}});
+    changed_.notify_all();
+    return Sent::yes;
+  }
   Sent ping() override { return Sent::yes; }
   void close(int code, const std::string&) override {
     const std::lock_guard lock(mutex_);
@@ -117,6 +123,13 @@ TEST_F(StreamTest, SaysHelloAnswersAndSendsData) {
   const json data = socket_.next("data");
   EXPECT_EQ(data["tick"], 1);
   EXPECT_EQ(data["v"].size(), 1U);
+}
+
+TEST_F(StreamTest, SendsDataAsBytesToThoseWhoAskForThem) {
+  socket_.say(R"({"op":"subscribe","rate_hz":1000,"channels":["dcm"],"format":"float32"})");
+  EXPECT_EQ(socket_.next("subscribed")["format"], "float32");
+  publish(1);
+  EXPECT_EQ(socket_.next("binary")["size"], 32 + 2 * 4);
 }
 
 TEST_F(StreamTest, SaysHelloAgainWhenTheSessionChanges) {

@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-SessionPtr session() { return std::make_shared<const SessionInfo>(); }
+SessionPtr same_session() { return std::make_shared<const SessionInfo>(); }
 
 FramePtr frame(const SessionPtr& of, std::uint64_t tick) {
   auto message = std::make_shared<FrameMessage>();
@@ -29,7 +29,7 @@ EventPtr event(std::uint64_t tick) {
 
 Subscription at(double rate_hz) {
   Subscription subscription;
-  subscription.rate_hz = rate_hz;
+  subscription.rates = {rate_hz};
   return subscription;
 }
 
@@ -86,7 +86,7 @@ TEST(Decimation, StaysExactAfterDays) {
 
 TEST(Subscriber, TellsNothingButTheSessionBeforeItIsSubscribed) {
   Subscriber subscriber;
-  const SessionPtr here = session();
+  const SessionPtr here = same_session();
   subscriber.start_session(here);
   subscriber.offer(frame(here, 0), true);
   subscriber.offer(event(0));
@@ -97,7 +97,7 @@ TEST(Subscriber, TellsNothingButTheSessionBeforeItIsSubscribed) {
 
 TEST(Subscriber, AnswersFirstThenSendsTheLatestFrame) {
   Subscriber subscriber;
-  const SessionPtr here = session();
+  const SessionPtr here = same_session();
   subscriber.start_session(here);
   subscriber.subscribe(at(10), "answer", frame(here, 5));
   const auto items = drain(subscriber);
@@ -108,7 +108,7 @@ TEST(Subscriber, AnswersFirstThenSendsTheLatestFrame) {
 
 TEST(Subscriber, FramesAndEventsKeepTheirOrder) {
   Subscriber subscriber;
-  const SessionPtr here = session();
+  const SessionPtr here = same_session();
   subscriber.start_session(here);
   subscriber.subscribe(at(1000), "", nullptr);
   drain(subscriber);
@@ -124,7 +124,7 @@ TEST(Subscriber, FramesAndEventsKeepTheirOrder) {
 
 TEST(Subscriber, DropsTheOldestFramesCountsThemAndLeavesAGap) {
   Subscriber subscriber;
-  const SessionPtr here = session();
+  const SessionPtr here = same_session();
   subscriber.start_session(here);
   subscriber.subscribe(at(1000), "", nullptr);
   std::size_t dropped = 0;
@@ -141,7 +141,7 @@ TEST(Subscriber, DropsTheOldestFramesCountsThemAndLeavesAGap) {
 
 TEST(Subscriber, SeqHasNoGapWhenTheSubscriptionChanges) {
   Subscriber subscriber;
-  const SessionPtr here = session();
+  const SessionPtr here = same_session();
   subscriber.start_session(here);
   subscriber.subscribe(at(1000), "", nullptr);
   subscriber.offer(frame(here, 1), false);
@@ -156,7 +156,7 @@ TEST(Subscriber, SeqHasNoGapWhenTheSubscriptionChanges) {
 
 TEST(Subscriber, KeepsEveryEventUntilTheyOverflowThenTellsTheClientToGo) {
   Subscriber subscriber;
-  subscriber.start_session(session());
+  subscriber.start_session(same_session());
   subscriber.subscribe(at(1), "", nullptr);
   drain(subscriber);
   for (std::uint64_t i = 0; i < Subscriber::max_lossless; ++i) subscriber.offer(event(i));
@@ -170,8 +170,8 @@ TEST(Subscriber, KeepsEveryEventUntilTheyOverflowThenTellsTheClientToGo) {
 
 TEST(Subscriber, FramesOfAnotherSessionAreNotShown) {
   Subscriber subscriber;
-  const SessionPtr old = session();
-  const SessionPtr here = session();
+  const SessionPtr old = same_session();
+  const SessionPtr here = same_session();
   subscriber.start_session(old);
   subscriber.subscribe(at(1000), "", nullptr);
   subscriber.start_session(here);
@@ -184,7 +184,7 @@ TEST(Subscriber, FramesOfAnotherSessionAreNotShown) {
 
 TEST(Subscriber, TheSameFrameIsNotSentTwice) {
   Subscriber subscriber;
-  const SessionPtr here = session();
+  const SessionPtr here = same_session();
   subscriber.start_session(here);
   subscriber.subscribe(at(1000), "", nullptr);
   drain(subscriber);
@@ -196,7 +196,7 @@ TEST(Subscriber, TheSameFrameIsNotSentTwice) {
 
 TEST(Subscriber, AClosePassesEverythingElse) {
   Subscriber subscriber;
-  subscriber.start_session(session());
+  subscriber.start_session(same_session());
   subscriber.close(1001, "bye");
   subscriber.close(1008, "later");
   const auto item = subscriber.next(std::chrono::steady_clock::now());
@@ -214,7 +214,7 @@ TEST(Subscriber, FinishWakesTheWriter) {
 
 TEST(FrameHub, TwoClientsOfOneRateSeeTheSame) {
   FrameHub hub;
-  const SessionPtr here = session();
+  const SessionPtr here = same_session();
   hub.start_session(here);
   const auto a = hub.add();
   const auto b = hub.add();
@@ -229,7 +229,7 @@ TEST(FrameHub, TwoClientsOfOneRateSeeTheSame) {
 
 TEST(FrameHub, ALatecomerIsToldOfTheSessionAndOfTheEnd) {
   FrameHub hub;
-  hub.start_session(session());
+  hub.start_session(same_session());
   hub.close_all(1001, "bye");
   const auto late = hub.add();
   const auto item = late->next(std::chrono::steady_clock::now());
@@ -238,7 +238,7 @@ TEST(FrameHub, ALatecomerIsToldOfTheSessionAndOfTheEnd) {
 
 TEST(FrameHub, ASlowClientCostsOnlyItself) {
   FrameHub hub;
-  const SessionPtr here = session();
+  const SessionPtr here = same_session();
   hub.start_session(here);
   const auto slow = hub.add();
   const auto good = hub.add();

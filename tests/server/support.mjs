@@ -1,15 +1,24 @@
 // Starts the real binary on a free port and talks to it. Loopback only; everything is bounded.
 import { spawn } from 'node:child_process';
+import fs from 'node:fs';
 import http from 'node:http';
 import net from 'node:net';
 import crypto from 'node:crypto';
+import os from 'node:os';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import WebSocket from 'ws';
 
 export const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), '../..');
 export const binary = process.env.STAGGER_BIN ?? path.join(root, 'build/bin/stagger');
-const environment = { STAGGER_ROBOTS: path.join(root, 'robots'), ...process.env };
+// What users make goes to a folder of each test file's own, never to that of whoever runs the tests.
+const data = fs.mkdtempSync(path.join(os.tmpdir(), 'stagger-data-'));
+process.on('exit', () => fs.rmSync(data, { recursive: true, force: true }));
+const environment = {
+  STAGGER_ROBOTS: path.join(root, 'robots'),
+  ...process.env,
+  STAGGER_DATA: data,
+};
 // Sanitizer builds on a loaded machine are many times slower; nothing here waits for the clock.
 const patience = 60_000;
 
@@ -36,8 +45,8 @@ export async function eventually(condition, what, ms = patience) {
 }
 
 /** Runs a command to its end: {code, stdout, stderr}. */
-export async function command(args, input = '', watch = () => {}) {
-  const child = spawn(binary, args, { env: environment, stdio: 'pipe' });
+export async function command(args, input = '', watch = () => {}, variables = {}) {
+  const child = spawn(binary, args, { env: { ...environment, ...variables }, stdio: 'pipe' });
   watch(child);
   const output = { stdout: '', stderr: '' };
   child.stdout.on('data', (data) => (output.stdout += data));
@@ -59,12 +68,21 @@ export async function interrupted(args) {
 
 /** A server of its own for a test: `await using` is too new, so end it with end() or kill(). */
 export class Server {
-  static async start(...args) {
+  static start(...args) {
+    return Server.startWith({}, ...args);
+  }
+  /** The same with environment variables of its own. */
+  static async startWith(variables, ...args) {
     const server = new Server();
     // Where the plant does not matter, the cheap one.
     const plant = args.includes('--plant') ? [] : ['--plant', 'lipm'];
     const all = ['serve', '--port', '0', ...plant, ...args];
-    server.child = spawn(binary, all, { env: environment, stdio: ['ignore', 'pipe', 'pipe'] });
+    // Recordings of its own, which go with it.
+    server.data = fs.mkdtempSync(path.join(os.tmpdir(), 'stagger-data-'));
+    const env = { ...environment, STAGGER_DATA: server.data, ...variables };
+    server.child = spawn(binary, all, { env, stdio: ['ignore', 'pipe', 'pipe'] });
+    const data = server.data;
+    server.removeData = () => fs.rmSync(data, { recursive: true, force: true });
     server.stderr = '';
     server.child.stderr.on('data', (data) => (server.stderr += data));
     server.ended = new Promise((resolve) =>
@@ -87,7 +105,8 @@ export class Server {
 
   /** One request on a connection of its own: {status, headers, text, json}. */
   request(method, target, { body, headers = {} } = {}) {
-    const text = body === undefined || typeof body === 'string' ? body : JSON.stringify(body);
+    const whole = body === undefined || typeof body === 'string' || Buffer.isBuffer(body);
+    const text = whole ? body : JSON.stringify(body);
     const all = { ...headers };
     if (text !== undefined) {
       all['content-type'] ??= 'application/json';
@@ -101,7 +120,7 @@ export class Server {
         response.on('data', (data) => (received += data));
         response.on('end', () => {
           let json;
-          if (/json/.test(response.headers['content-type'] ?? '') && received) {
+          if (/[/+]json/.test(response.headers['content-type'] ?? '') && received) {
             json = JSON.parse(received);
           }
           resolve({ status: response.statusCode, headers: response.headers, text: received, json });
@@ -143,6 +162,7 @@ export class Server {
   async kill() {
     this.child.kill('SIGKILL');
     await this.ended;
+    this.removeData();
     this.expectNoReports();
   }
   /** An orderly end, so that sanitizers get to say what they have seen. */
@@ -159,18 +179,47 @@ export class Server {
   }
 }
 
+/** A binary data message (docs/stream.md) as the JSON that says the same. */
+export function decode(layout, bytes) {
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  if (view.getUint8(0) !== 1) throw new Error(`a message of kind ${view.getUint8(0)}`);
+  const width = view.getUint8(1);
+  const rates = view.getUint16(2, true);
+  const count = view.getUint32(4, true);
+  const carried = layout.filter(({ rate }) => rates & (1 << rate));
+  const lists = carried.filter(({ max_repeat }) => max_repeat > 1);
+  const start = Math.ceil((32 + lists.length) / 8) * 8;
+  if (bytes.byteLength !== start + count * width) throw new Error('a message of another length');
+  let offset = start;
+  const next = () => {
+    const value = width === 8 ? view.getFloat64(offset, true) : view.getFloat32(offset, true);
+    offset += width;
+    return Number.isFinite(value) ? value : null;
+  };
+  const v = {};
+  for (const { name, fields, max_repeat } of carried) {
+    const repeat = max_repeat > 1 ? view.getUint8(32 + lists.findIndex((l) => l.name === name)) : 1;
+    v[name] = Array.from({ length: repeat * fields.length }, next);
+  }
+  const [seq, tick] = [8, 16].map((at) => Number(view.getBigUint64(at, true)));
+  return { op: 'data', seq, tick, t: view.getFloat64(24, true), v };
+}
+
 /** A stream client that keeps all messages. */
 export class Stream {
   static async open(server, options = {}) {
     const stream = new Stream();
     stream.messages = [];
+    const { path: target = '/api/v1/stream', ...rest } = options;
     stream.waiting = new Set();
-    stream.socket = new WebSocket(`ws://127.0.0.1:${server.port}/api/v1/stream`, options);
+    stream.socket = new WebSocket(`ws://127.0.0.1:${server.port}${target}`, rest);
     stream.closed = new Promise((resolve) =>
       stream.socket.on('close', (code, reason) => resolve({ code, reason: String(reason) })),
     );
-    stream.socket.on('message', (data) => {
-      stream.messages.push(JSON.parse(data));
+    stream.socket.on('message', (data, isBinary) => {
+      stream.messages.push(isBinary ? decode(stream.layout, data) : JSON.parse(data));
+      const newest = stream.messages.at(-1);
+      if (newest.op === 'subscribed') stream.layout = newest.layout;
       for (const wake of stream.waiting) wake();
     });
     const opened = new Promise((resolve, reject) => {
@@ -241,6 +290,18 @@ export async function stalledClient(server, rate_hz = 1000) {
   const masked = Buffer.from(payload.map((byte, i) => byte ^ mask[i % 4]));
   socket.write(Buffer.concat([Buffer.from([0x81, 0x80 | payload.length]), mask, masked]));
   return socket;
+}
+
+/** A body of multipart/form-data out of parts [name, content, file name], with its headers. */
+export function form(parts) {
+  const boundary = 'a-boundary-of-our-own';
+  const pieces = parts.flatMap(([name, content, file]) => {
+    const filename = file === undefined ? '' : `; filename="${file}"`;
+    const head = `--${boundary}\r\nContent-Disposition: form-data; name="${name}"${filename}\r\n\r\n`;
+    return [head, content, '\r\n'];
+  });
+  const body = Buffer.concat([...pieces, `--${boundary}--\r\n`].map((piece) => Buffer.from(piece)));
+  return { body, headers: { 'content-type': `multipart/form-data; boundary=${boundary}` } };
 }
 
 /** What every error must look like. */

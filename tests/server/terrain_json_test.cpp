@@ -11,7 +11,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 /// "pointer text" of all that is wrong.
-std::vector<std::string> errors_of(const std::string& text) {
+std::vector<std::string> terrain_errors(const std::string& text) {
   sim::JsonErrors errors;
   parse_terrain(text, errors);
   std::vector<std::string> all;
@@ -65,27 +65,29 @@ TEST(TerrainJson, TheShortFormsOfTheCommandLine) {
   EXPECT_EQ(resolved("slope:5"), resolved(R"({"kind":"slope","angle_deg":5})"));
   EXPECT_EQ(resolved("slope:5:180"),
             resolved(R"({"kind":"slope","angle_deg":5,"uphill_deg":180})"));
-  EXPECT_THAT(errors_of("hills"), testing::SizeIs(1));
-  EXPECT_THAT(errors_of("slope"), testing::SizeIs(1));
-  EXPECT_THAT(errors_of("uneven:0.02:1"), testing::SizeIs(1));
-  EXPECT_THAT(errors_of("flat:1"), testing::SizeIs(1));
-  EXPECT_THROW(errors_of("slope:steep"), sim::JsonSyntaxError);
+  EXPECT_THAT(terrain_errors("hills"), ::testing::SizeIs(1));
+  EXPECT_THAT(terrain_errors("slope"), ::testing::SizeIs(1));
+  EXPECT_THAT(terrain_errors("uneven:0.02:1"), ::testing::SizeIs(1));
+  EXPECT_THAT(terrain_errors("flat:1"), ::testing::SizeIs(1));
+  EXPECT_THROW(terrain_errors("slope:steep"), sim::JsonSyntaxError);
 }
 
 TEST(TerrainJson, WhatIsOutOfRangeIsNamedWithWhatIsAllowed) {
-  EXPECT_THAT(errors_of("slope:8.1"), ElementsAre("/angle_deg is 8.1; allowed: 0 to 8 degrees"));
-  EXPECT_THAT(errors_of("uneven:0.04"), ElementsAre("/height_m is 0.04; allowed: 0 to 0.03 m"));
-  EXPECT_THAT(errors_of(R"({"kind":"flat","friction":0.9})"),
+  EXPECT_THAT(terrain_errors("slope:8.1"),
+              ElementsAre("/angle_deg is 8.1; allowed: 0 to 8 degrees"));
+  EXPECT_THAT(terrain_errors("uneven:0.04"),
+              ElementsAre("/height_m is 0.04; allowed: 0 to 0.03 m"));
+  EXPECT_THAT(terrain_errors(R"({"kind":"flat","friction":0.9})"),
               ElementsAre("/friction is 0.9; allowed: 0.1 to 0.8"));
-  EXPECT_THAT(errors_of(R"({"kind":"flat","friction":0.1})"), IsEmpty());
-  EXPECT_THAT(errors_of(R"({"kind":"platform","vx":0.4,"vy":0.4})"), testing::SizeIs(1));
+  EXPECT_THAT(terrain_errors(R"({"kind":"flat","friction":0.1})"), IsEmpty());
+  EXPECT_THAT(terrain_errors(R"({"kind":"platform","vx":0.4,"vy":0.4})"), ::testing::SizeIs(1));
   EXPECT_THAT(
-      errors_of(
+      terrain_errors(
           R"({"kind":"flat","patches":[{"x_min":1,"x_max":0,"y_min":0,"y_max":1,"friction":1}]})"),
       ElementsAre("/patches/0/x_max is 0; allowed: 1 to 1000 m",
                   "/patches/0/friction is 1; allowed: 0.1 to 0.8"));
   // A field of another kind is unknown here.
-  EXPECT_THAT(errors_of(R"({"kind":"flat","angle_deg":3})"), testing::SizeIs(1));
+  EXPECT_THAT(terrain_errors(R"({"kind":"flat","angle_deg":3})"), ::testing::SizeIs(1));
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 
 using ::testing::UnorderedElementsAre;
 
-std::vector<std::string> errors_of(const std::string& text) {
+std::vector<std::string> trial_errors(const std::string& text) {
   sim::JsonErrors errors;
   read_trial(sim::parse_json(text), errors);
   std::vector<std::string> pointers;
@@ -28,11 +28,11 @@ TEST(TrialJson, OnlyTheRobotIsRequired) {
   EXPECT_FALSE(spec.senses.perfect_state);
   EXPECT_EQ(spec.senses.control_delay, 0.001);
   EXPECT_FALSE(spec.push);
-  EXPECT_THAT(errors_of("{}"), UnorderedElementsAre("/robot"));
+  EXPECT_THAT(trial_errors("{}"), UnorderedElementsAre("/robot"));
 }
 
 TEST(TrialJson, TellsEverythingThatIsWrongAtOnce) {
-  EXPECT_THAT(errors_of(R"({"robot":7,"plant":"mujoco","seed":-1,"walk":{"vx":0.51,"vz":1},
+  EXPECT_THAT(trial_errors(R"({"robot":7,"plant":"mujoco","seed":-1,"walk":{"vx":0.51,"vz":1},
                             "strategies":["ankle","knee"],"settle_s":61,"observe_s":-1,
                             "push":{"impulse_ns":0,"colour":"red"},"terrain":"flat"})"),
               UnorderedElementsAre("/robot", "/plant", "/seed", "/walk/vx", "/walk/vz",
@@ -41,13 +41,16 @@ TEST(TrialJson, TellsEverythingThatIsWrongAtOnce) {
 }
 
 TEST(TrialJson, TheEndsOfTheRangesHold) {
-  EXPECT_TRUE(errors_of(R"({"robot":"a","walk":{"vx":-0.5,"vy":0.3,"wz":0.5},"settle_s":0,
+  EXPECT_TRUE(trial_errors(R"({"robot":"a","walk":{"vx":-0.5,"vy":0.3,"wz":0.5},"settle_s":0,
                             "observe_s":60,"seed":9007199254740992})")
                   .empty());
-  EXPECT_THAT(errors_of(R"({"robot":"a","walk":{"vy":0.31}})"), UnorderedElementsAre("/walk/vy"));
-  EXPECT_THAT(errors_of(R"({"robot":"a","walk":{"wz":-0.51}})"), UnorderedElementsAre("/walk/wz"));
-  EXPECT_THAT(errors_of(R"({"robot":"a","seed":1.5})"), UnorderedElementsAre("/seed"));
-  EXPECT_THAT(errors_of(R"({"robot":"a","seed":9007199254740994})"), UnorderedElementsAre("/seed"));
+  EXPECT_THAT(trial_errors(R"({"robot":"a","walk":{"vy":0.31}})"),
+              UnorderedElementsAre("/walk/vy"));
+  EXPECT_THAT(trial_errors(R"({"robot":"a","walk":{"wz":-0.51}})"),
+              UnorderedElementsAre("/walk/wz"));
+  EXPECT_THAT(trial_errors(R"({"robot":"a","seed":1.5})"), UnorderedElementsAre("/seed"));
+  EXPECT_THAT(trial_errors(R"({"robot":"a","seed":9007199254740994})"),
+              UnorderedElementsAre("/seed"));
 }
 
 TEST(TrialJson, AnEmptyListOfStrategiesSwitchesAllOff) {
@@ -60,7 +63,7 @@ TEST(TrialJson, AnEmptyListOfStrategiesSwitchesAllOff) {
   EXPECT_EQ(read(R"({"robot":"a","strategies":["step"]})"),
             (engine::Strategies{.ankle = false, .hip = false, .step = true, .time = false}));
   EXPECT_TRUE(errors.empty());
-  EXPECT_THAT(errors_of(R"({"robot":"a","strategies":["step","step"]})"),
+  EXPECT_THAT(trial_errors(R"({"robot":"a","strategies":["step","step"]})"),
               UnorderedElementsAre("/strategies"));
 }
 
@@ -74,9 +77,9 @@ TEST(TrialJson, WhoStandsDoesNotWalk) {
   EXPECT_TRUE(spec.stand);
   EXPECT_TRUE(read(trial_spec_json(spec).dump().c_str()).stand);
   EXPECT_TRUE(errors.empty());
-  EXPECT_THAT(errors_of(R"({"robot":"a","stand":true,"walk":{"wz":0.1}})"),
+  EXPECT_THAT(trial_errors(R"({"robot":"a","stand":true,"walk":{"wz":0.1}})"),
               UnorderedElementsAre("/stand"));
-  EXPECT_THAT(errors_of(R"({"robot":"a","stand":1})"), UnorderedElementsAre("/stand"));
+  EXPECT_THAT(trial_errors(R"({"robot":"a","stand":1})"), UnorderedElementsAre("/stand"));
 }
 
 TEST(TrialJson, AResolvedTrialReadsBackTheSame) {
@@ -109,9 +112,9 @@ TEST(TrialJson, EveryResultSaysWhatControlKnewAndHowLateItActed) {
   EXPECT_FALSE(lipm.contains("state"));
   EXPECT_FALSE(lipm.contains("control_delay_ms"));
   EXPECT_TRUE(errors.empty());
-  EXPECT_THAT(errors_of(R"({"robot":"a","state":"exact","control_delay_ms":11})"),
+  EXPECT_THAT(trial_errors(R"({"robot":"a","state":"exact","control_delay_ms":11})"),
               UnorderedElementsAre("/state", "/control_delay_ms"));
-  EXPECT_THAT(errors_of(R"({"robot":"a","control_delay_ms":1.5})"),
+  EXPECT_THAT(trial_errors(R"({"robot":"a","control_delay_ms":1.5})"),
               UnorderedElementsAre("/control_delay_ms"));
 }
 
@@ -130,9 +133,9 @@ TEST(TrialJson, TheTerrainIsToldInFull) {
 
 TEST(TrialJson, ThePointMassTakesFlatGroundOnly) {
   const auto on = [](const std::string& terrain) {
-    return errors_of(R"({"robot":"a","plant":"lipm","terrain":)" + terrain + "}");
+    return trial_errors(R"({"robot":"a","plant":"lipm","terrain":)" + terrain + "}");
   };
-  EXPECT_THAT(on(R"({"kind":"flat"})"), testing::IsEmpty());
+  EXPECT_THAT(on(R"({"kind":"flat"})"), ::testing::IsEmpty());
   EXPECT_THAT(on(R"({"kind":"slope","angle_deg":3})"), UnorderedElementsAre("/terrain"));
 }
 

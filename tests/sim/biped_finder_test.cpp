@@ -12,10 +12,10 @@ namespace {
 
 using engine::Side;
 using Foot = BipedPlan::Foot;
-using testing::Contains;
-using testing::ElementsAre;
-using testing::Field;
-using testing::HasSubstr;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::Field;
+using ::testing::HasSubstr;
 
 std::vector<LegRole> roles(const Leg& leg) {
   std::vector<LegRole> result;

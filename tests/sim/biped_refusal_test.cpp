@@ -9,7 +9,7 @@ namespace stagger::sim {
 namespace {
 
 using Foot = BipedPlan::Foot;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// The reason that it cannot walk.
 std::string refusal(const std::string& urdf) {

@@ -7,7 +7,7 @@
 namespace stagger::sim {
 namespace {
 
-class BodyPairsTest : public testing::Test {
+class BodyPairsTest : public ::testing::Test {
  protected:
   int body(const char* link) const { return robot_->model.links.at(link).body; }
   bool may_touch(const char* first, const char* second) const {

@@ -11,7 +11,7 @@
 namespace stagger::sim {
 namespace {
 
-class BulletGroundTest : public testing::Test {
+class BulletGroundTest : public ::testing::Test {
  protected:
   /// At rest on the ground at a place, until the first contacts have been solved.
   std::vector<BulletWorld::Contact> contacts_at(const Terrain& terrain, const Vec2& place) {

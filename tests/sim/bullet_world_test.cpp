@@ -23,7 +23,7 @@ namespace {
 
 constexpr double weight = 30.0 * 9.81;  // [N]
 
-class BulletWorldTest : public testing::Test {
+class BulletWorldTest : public ::testing::Test {
  protected:
   /// High above the ground, at rest.
   RobotState flying() const {
@@ -428,7 +428,7 @@ TEST_F(BulletWorldTest, RepeatsToTheBitInOneProcessAndInTwo) {
   std::string output;
   std::array<char, 256> buffer{};
   while (std::fgets(buffer.data(), buffer.size(), child.get())) output += buffer.data();
-  EXPECT_THAT(output, testing::HasSubstr("hash=" + hash));
+  EXPECT_THAT(output, ::testing::HasSubstr("hash=" + hash));
 }
 
 }  // namespace

@@ -26,6 +26,9 @@ TEST(Channels, EachReadsAsManyNumbersAsItDeclares) {
   frame.joint_count = 2;
   frame.preview_count = 3;
   frame.support_polygon_count = 6;
+  frame.capture_region.count = 12;
+  frame.swing_path_count = 5;
+  frame.ground_force_count = 8;
   for (const Channel& channel : make_channels({"left_knee", "right_knee"})) {
     std::vector<double> values;
     channel.read(frame, values);

@@ -3,24 +3,18 @@
 #include <gtest/gtest.h>
 
 #include "tests/engine/call_counts.h"
+#include "tests/sim/kasaei.h"
+#include "tests/sim/tick.h"
 
 namespace stagger::sim {
 namespace {
-
-constexpr double dt = 0.001;
-constexpr double gravity = 9.81;
-
-const Robot& kasaei() {
-  static const std::shared_ptr<const Robot> robot = load_robot("robots/kasaei");
-  return *robot;
-}
 
 /// Sensors and estimator over motions that are given.
 class Sensed {
  public:
   explicit Sensed(const RobotState& start, const SensorParameters& parameters = {})
-      : sensors_(kasaei(), parameters, 1, dt, gravity, start),
-        estimator_(kasaei(), parameters, dt, gravity, start) {}
+      : sensors_(*kasaei(), parameters, 1, dt, gravity, start),
+        estimator_(*kasaei(), parameters, dt, gravity, start) {}
 
   const RobotState& take(const RobotState& truth, const PerFoot<SoleLoad>& loads) {
     estimator_.update(sensors_.read(truth, loads));
@@ -38,7 +32,7 @@ PerFoot<SoleLoad> weight_on_both(const Vec2& cop) {
 }
 
 TEST(Estimator, StandsStill) {
-  const RobotState truth = nominal_state(kasaei());
+  const RobotState truth = nominal_state(*kasaei());
   Sensed sensed(truth);
   for (int i = 0; i < 3000; ++i) sensed.take(truth, weight_on_both(Vec2::Zero()));
   const RobotState& state = sensed.estimator().state();
@@ -49,11 +43,11 @@ TEST(Estimator, StandsStill) {
 
 TEST(Estimator, FollowsARobotThatTipsOverItsToes) {
   // All joints stiff, about the front edge of both soles: 0.1 rad there and back.
-  const RobotState start = nominal_state(kasaei());
-  const auto poses = body_poses(kasaei().model, start);
+  const RobotState start = nominal_state(*kasaei());
+  const auto poses = body_poses(kasaei()->model, start);
   const Eigen::Isometry3d sole =
-      poses[kasaei().foot_body(engine::Side::left)] * kasaei().sole_in_body(engine::Side::left);
-  const Vec2 edge(0.5 * kasaei().description.feet[0].sole.length, 0.0);
+      poses[kasaei()->foot_body(engine::Side::left)] * kasaei()->sole_in_body(engine::Side::left);
+  const Vec2 edge(0.5 * kasaei()->description.feet[0].sole.length, 0.0);
   const Vec3 pivot = sole * Vec3(edge.x(), 0.0, 0.0);
   Sensed sensed(start);
   for (int i = 0; i < 500; ++i) sensed.take(start, weight_on_both(Vec2::Zero()));
@@ -80,9 +74,9 @@ TEST(Estimator, FollowsARobotThatTipsOverItsToes) {
 
 TEST(Estimator, AFootInTheAirHoldsNothing) {
   // The right foot is swung about while the left one stands: the base does not move.
-  RobotState truth = nominal_state(kasaei());
+  RobotState truth = nominal_state(*kasaei());
   Sensed sensed(truth);
-  const Eigen::Index knee = kasaei().model.joint_index("right_knee");
+  const Eigen::Index knee = kasaei()->model.joint_index("right_knee");
   ASSERT_GE(knee, 0);
   const double start = truth.q[knee];
   for (int i = 1; i <= 1000; ++i) {
@@ -98,7 +92,7 @@ TEST(Estimator, AFootInTheAirHoldsNothing) {
 
 #ifdef STAGGER_CALLS_ARE_COUNTED
 TEST(Estimator, NeitherTakesMemoryNorThrows) {
-  RobotState truth = nominal_state(kasaei());
+  RobotState truth = nominal_state(*kasaei());
   Sensed sensed(truth);
   const testing::CallCounts before = testing::call_counts();
   for (int i = 0; i < 100; ++i) {

@@ -8,7 +8,7 @@
 namespace stagger::sim {
 namespace {
 
-class FullBodyFoundRobot : public testing::TestWithParam<const char*> {
+class FullBodyFoundRobot : public ::testing::TestWithParam<const char*> {
  protected:
   std::shared_ptr<const Robot> robot_ =
       written_robot(std::filesystem::path("tests/data/robots") / GetParam());
@@ -16,8 +16,8 @@ class FullBodyFoundRobot : public testing::TestWithParam<const char*> {
 
 INSTANTIATE_TEST_SUITE_P(
     Robots, FullBodyFoundRobot,
-    testing::Values("pitch_first.urdf", "backwards.urdf", "turned_frames.urdf",
-                    "waist_and_arms.urdf"),
+    ::testing::Values("pitch_first.urdf", "backwards.urdf", "turned_frames.urdf",
+                      "waist_and_arms.urdf"),
     [](const auto& instance) {
       return std::string(instance.param).substr(0, std::string(instance.param).find('.'));
     });

@@ -4,11 +4,10 @@
 
 #include "engine/walking_engine.h"
 #include "sim/engine_setup.h"
+#include "tests/sim/tick.h"
 
 namespace stagger::sim {
 namespace {
-
-constexpr double dt = 0.001;
 
 /// Torques of the joints in the ticks of a robot that begins to walk.
 std::vector<std::vector<double>> torques(double control_delay, int ticks) {

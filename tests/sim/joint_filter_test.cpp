@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/sim/tick.h"
+
 namespace stagger::sim {
 namespace {
 
-constexpr double dt = 0.001;
 constexpr double acceleration = 40.0;
 
 Eigen::VectorXd one(double x) { return Eigen::VectorXd::Constant(1, x); }

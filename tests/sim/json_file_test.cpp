@@ -11,7 +11,7 @@
 namespace stagger::sim {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 JsonSyntaxError syntax_error(const std::string& text) {
   try {
@@ -64,20 +64,20 @@ TEST(JsonFile, FindsTheLineOfAPointer) {
 
 TEST(JsonFile, ErrorsNameFileLineAndField) {
   const std::string file =
-      testing::TempDir() + "json_file_test_" + std::to_string(getpid()) + ".json";
+      ::testing::TempDir() + "json_file_test_" + std::to_string(getpid()) + ".json";
   std::ofstream(file) << "{\n  \"mass\": -1,\n  \"colour\": 3\n}\n";
   EXPECT_THAT(
       [&] {
         read_json_file(file, [](JsonReader& in) { in.number("mass", Range::more_than(0, "kg")); });
       },
-      testing::ThrowsMessage<std::runtime_error>(
+      ::testing::ThrowsMessage<std::runtime_error>(
           file + ":2: /mass is -1; allowed: more than 0 kg\n" + file +
           ":3: /colour is no field here; allowed: mass"));
   std::ofstream(file) << "{\n  \"mass\" 1\n}\n";
   EXPECT_THAT([&] { read_json_file(file, [](JsonReader&) {}); },
-              testing::ThrowsMessage<std::runtime_error>(HasSubstr(file + ":2:10: ")));
+              ::testing::ThrowsMessage<std::runtime_error>(HasSubstr(file + ":2:10: ")));
   EXPECT_THAT([] { read_json_file("no/such.json", [](JsonReader&) {}); },
-              testing::ThrowsMessage<std::runtime_error>("no/such.json: cannot be opened"));
+              ::testing::ThrowsMessage<std::runtime_error>("no/such.json: cannot be opened"));
 }
 
 }  // namespace

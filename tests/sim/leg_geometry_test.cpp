@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/robot/rigid_body.h"
+
 namespace stagger::sim {
 namespace {
 
@@ -24,6 +26,35 @@ TEST(LegGeometry, FindsHipKneeAndAnkleWhateverTheOrderOfTheJoints) {
     EXPECT_EQ(leg.ankle_joints[0], leg.ankle_body - 1);
     EXPECT_EQ(leg.ankle_joints[1], robot->foot_body(Side::left) - 1);
   }
+}
+
+TEST(LegGeometry, KnowsWhereTheKneeIsStraight) {
+  for (const char* name : {"kasaei", "op3", "g1", "h1_2"}) {
+    const auto robot = load_robot(std::string("robots/") + name);
+    for (const Side side : {Side::left, Side::right}) {
+      const LegGeometry leg = leg_geometry(*robot, side);
+      RobotState state = nominal_state(*robot);
+      const auto reach = [&](double knee) {
+        state.q[leg.knee_joint] = knee;
+        RigidBody body(robot->model);
+        body.update(state);
+        return (body.position(leg.hip_body) - body.position(leg.ankle_body)).norm();
+      };
+      const double bent = state.q[leg.knee_joint];
+      EXPECT_GT(leg.knee_way * (bent - leg.straight_knee), 0.0) << name;
+      EXPECT_LT(reach(bent), reach(leg.straight_knee)) << name;
+      EXPECT_GT(reach(leg.straight_knee), reach(leg.straight_knee - 0.02)) << name;
+      EXPECT_GT(reach(leg.straight_knee), reach(leg.straight_knee + 0.02)) << name;
+    }
+  }
+}
+
+TEST(LegGeometry, AStraightNominalPoseTellsNotWhichWayTheKneeBends) {
+  auto robot = std::make_shared<Robot>(*load_robot("robots/kasaei"));
+  robot->description.nominal_pose.clear();
+  const LegGeometry leg = leg_geometry(*robot, Side::left);
+  EXPECT_EQ(leg.knee_joint, -1);
+  EXPECT_NEAR(leg.length, 1.0, 0.002);
 }
 
 TEST(LegGeometry, KnowsNothingOfALegWithoutThreeHinges) {

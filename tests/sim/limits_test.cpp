@@ -6,14 +6,10 @@
 #include <cmath>
 
 #include "sim/experiment/trial_ceiling.h"
+#include "tests/sim/kasaei.h"
 
 namespace stagger::sim {
 namespace {
-
-const std::shared_ptr<const Robot>& kasaei() {
-  static const std::shared_ptr<const Robot> robot = load_robot("robots/kasaei");
-  return robot;
-}
 
 LimitsSpec spec_with(std::vector<LimitCell> cells, std::vector<double> rungs) {
   LimitsSpec spec;

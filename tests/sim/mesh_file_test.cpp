@@ -1,6 +1,7 @@
 #include "sim/robot/mesh_file.h"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <cmath>
 
@@ -50,6 +51,44 @@ TEST(MeshFile, ReadsStlAndObj) {
   EXPECT_EQ(read_mesh(folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n")).size(), 3U);
 }
 
+TEST(MeshFile, AStrangersMeshIsLookedForInItsFolderAlone) {
+  const TestFolder folder;
+  std::filesystem::create_directories(folder.path() / "robot/a/meshes");
+  folder.write("outside.stl", "x");
+  folder.write("robot/a/meshes/foot.stl", "x");
+  std::filesystem::create_symlink(folder.path() / "outside.stl", folder.path() / "robot/link.stl");
+  const std::filesystem::path robot = folder.path() / "robot";
+  EXPECT_TRUE(find_mesh("package://a/meshes/foot.stl", robot, Trust::stranger));
+  EXPECT_TRUE(find_mesh("../a/meshes/foot.stl", robot, Trust::stranger));
+  for (const std::string& uri :
+       {std::string("../outside.stl"), (folder.path() / "outside.stl").string(),
+        "file://" + (folder.path() / "outside.stl").string(), std::string("link.stl")}) {
+    EXPECT_TRUE(find_mesh(uri, robot)) << uri;
+    EXPECT_FALSE(find_mesh(uri, robot, Trust::stranger)) << uri;
+  }
+  EXPECT_EQ(trust_in(robot), Trust::own);
+  folder.write("robot/.stranger", "");
+  EXPECT_EQ(trust_in(robot), Trust::stranger);
+}
+
+TEST(MeshFile, AStrangersMeshOpensNoOtherFile) {
+  const TestFolder folder;
+  // The file names another one; a pipe without a writer would be waited for without end.
+  ASSERT_EQ(mkfifo((folder.path() / "pipe").c_str(), 0600), 0);
+  const auto obj = folder.write("a.obj", "mtllib pipe\nv 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
+  EXPECT_EQ(read_mesh(obj, Trust::stranger).size(), 3U);
+  EXPECT_THROW(read_mesh(folder.write("a.ply", "ply\n"), Trust::stranger), std::runtime_error);
+}
+
+TEST(MeshFile, AStrangersMeshHasALimitOfVertices) {
+  const TestFolder folder;
+  std::string text;
+  for (int i = 0; i < 170000; ++i) text += "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -1 -2 -3\n";
+  const auto file = folder.write("many.obj", text);
+  EXPECT_THROW(read_mesh(file, Trust::stranger), std::runtime_error);
+  EXPECT_EQ(read_mesh(file).size(), 510000U);
+}
+
 TEST(MeshFile, WhatIsNoMeshIsAnError) {
   const TestFolder folder;
   for (const char* text : {"", "solid a\nendsolid a\n", "what is this?"}) {
@@ -72,7 +111,7 @@ TEST(MeshFile, KeepsTheCornersOfASoleAmongFewPoints) {
   }
   const auto hull = hull_points(points, Vec3::UnitZ());
   EXPECT_LE(hull.size(), max_hull_points);
-  for (int i = 0; i < 4; ++i) EXPECT_THAT(hull, testing::Contains(points[i]));
+  for (int i = 0; i < 4; ++i) EXPECT_THAT(hull, ::testing::Contains(points[i]));
   EXPECT_EQ(hull, hull_points(points, Vec3::UnitZ()));
 }
 

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/sim/tick.h"
+
 namespace stagger::sim {
 namespace {
-
-constexpr double dt = 0.001;
 
 PushSpec push(double impulse, double duration) {
   PushSpec spec;

@@ -10,11 +10,10 @@
 #include "sim/plant/bullet_world.h"
 #include "sim/robot/robot.h"
 #include "tests/sim/random_robot.h"
+#include "tests/sim/tick.h"
 
 namespace stagger::sim {
 namespace {
-
-constexpr double gravity = 9.81;
 
 /// Models to try: a random tree, and the paper's robot.
 std::vector<RobotModel> models() {
@@ -75,7 +74,6 @@ TEST(RigidBody, MassMatrixGivesTheKineticEnergy) {
 
 TEST(RigidBody, AgreesWithBulletsAccelerations) {
   Random random(4);
-  constexpr double dt = 0.001;
   double worst = 0.0;
   for (const RobotModel& model : models()) {
     RigidBody body(model);

@@ -17,9 +17,9 @@ namespace {
 
 using engine::Side;
 using nlohmann::json;
-using testing::AllOf;
-using testing::Contains;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
 
 /// The folder of the paper's robot with a changed robot.json.
 class ChangedRobot {
@@ -27,7 +27,7 @@ class ChangedRobot {
   ChangedRobot() {
     // A folder of its own: tests run side by side.
     folder_ =
-        std::filesystem::path(testing::TempDir()) / ("changed_robot_" + std::to_string(getpid()));
+        std::filesystem::path(::testing::TempDir()) / ("changed_robot_" + std::to_string(getpid()));
     std::filesystem::create_directories(folder_);
     std::filesystem::copy_file("robots/kasaei/robot.urdf", folder_ / "robot.urdf",
                                std::filesystem::copy_options::overwrite_existing);
@@ -184,7 +184,7 @@ TEST(LoadRobot, StaysInsideTheFolder) {
 
 TEST(ListRobots, FindsThemSorted) {
   EXPECT_THAT(list_robots("robots"),
-              AllOf(Contains("kasaei"), testing::WhenSorted(list_robots("robots"))));
+              AllOf(Contains("kasaei"), ::testing::WhenSorted(list_robots("robots"))));
   EXPECT_TRUE(list_robots("no/such/folder").empty());
 }
 

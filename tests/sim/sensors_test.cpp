@@ -2,18 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/sim/kasaei.h"
 #include "tests/sim/random_robot.h"
+#include "tests/sim/tick.h"
 
 namespace stagger::sim {
 namespace {
-
-constexpr double dt = 0.001;
-constexpr double gravity = 9.81;
-
-const std::shared_ptr<const Robot>& kasaei() {
-  static const std::shared_ptr<const Robot> robot = load_robot("robots/kasaei");
-  return robot;
-}
 
 SensorParameters noiseless() {
   SensorParameters p;

@@ -2,13 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/sim/kasaei.h"
+
 namespace stagger::sim {
 namespace {
-
-std::shared_ptr<const Robot> kasaei() {
-  static const std::shared_ptr<const Robot> robot = load_robot("robots/kasaei");
-  return robot;
-}
 
 Simulation make(PlantKind plant) {
   SimulationConfig config;
@@ -17,7 +14,7 @@ Simulation make(PlantKind plant) {
   return Simulation(config);
 }
 
-PushSpec push(double impulse, double duration) {
+PushSpec push_of(double impulse, double duration) {
   PushSpec spec;
   spec.impulse_ns = impulse;
   spec.duration_s = duration;
@@ -45,6 +42,24 @@ TEST_P(EachPlant, StandsUntilItWalks) {
   EXPECT_EQ(simulation.frame().tick, 1000U);
 }
 
+TEST_P(EachPlant, TellsOfTheGroundsForces) {
+  Simulation simulation = make(GetParam());
+  simulation.walk({});
+  int in_swing = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Frame& frame = simulation.step();
+    if (i < 10) continue;
+    double load = 0.0;
+    for (std::size_t k = 0; k < frame.ground_force_count; ++k) {
+      load += frame.ground_forces[k].force.z();
+    }
+    EXPECT_NEAR(load, frame.foot_load[0] + frame.foot_load[1], 1e-6);
+    if (frame.state == WalkingState::single_support) ++in_swing;
+    EXPECT_EQ(frame.reachable_footholds.count > 0, frame.state == WalkingState::single_support);
+  }
+  EXPECT_GT(in_swing, 100);
+}
+
 TEST_P(EachPlant, TellsOfStepsAndPushes) {
   Simulation simulation = make(GetParam());
   simulation.walk({});
@@ -54,7 +69,7 @@ TEST_P(EachPlant, TellsOfStepsAndPushes) {
   EXPECT_EQ(steps, static_cast<int>(simulation.frame().step_count));
   EXPECT_GT(steps, 1);
 
-  simulation.push(push(3.0, 0.05));
+  simulation.push(push_of(3.0, 0.05));
   run(simulation, 0.1);
   bool started = false;
   bool done = false;
@@ -72,7 +87,7 @@ TEST_P(EachPlant, TellsOfStepsAndPushes) {
 
 TEST_P(EachPlant, APushIsInTheFramesWhileItActs) {
   Simulation simulation = make(GetParam());
-  simulation.push(push(1.0, 0.02));
+  simulation.push(push_of(1.0, 0.02));
   double impulse = 0.0;
   for (int i = 0; i < 100; ++i) impulse += simulation.step().push_force.x() * Simulation::tick_s;
   EXPECT_NEAR(impulse, 1.0, 1e-9);
@@ -82,7 +97,7 @@ TEST_P(EachPlant, FallsFromAPushThatIsTooHard) {
   Simulation simulation = make(GetParam());
   simulation.walk({});
   run(simulation, 2.0);
-  simulation.push(push(120.0, 0.1));
+  simulation.push(push_of(120.0, 0.1));
   run(simulation, 4.0);
   EXPECT_FALSE(simulation.fall_reason().empty());
   EXPECT_TRUE(simulation.frame().fallen);
@@ -98,7 +113,7 @@ TEST_P(EachPlant, RepeatsToTheBit) {
     Simulation simulation = make(GetParam());
     simulation.walk({0.2, 0.0, 0.1});
     run(simulation, 2.0);
-    simulation.push(push(4.0, 0.05));
+    simulation.push(push_of(4.0, 0.05));
     run(simulation, 1.0);
     return simulation.state_hash();
   };
@@ -107,7 +122,7 @@ TEST_P(EachPlant, RepeatsToTheBit) {
 
 TEST_P(EachPlant, RefusesAPushOnALinkThatIsNotThere) {
   Simulation simulation = make(GetParam());
-  PushSpec spec = push(1.0, 0.1);
+  PushSpec spec = push_of(1.0, 0.1);
   spec.link = "tail";
   EXPECT_THROW(simulation.push(spec), std::invalid_argument);
 }

@@ -12,9 +12,9 @@ namespace stagger::sim {
 namespace {
 
 using nlohmann::json;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 /// "pointer text" of every error.
 std::vector<std::string> errors_of(const json& value, const JsonReader::Fields& fields) {

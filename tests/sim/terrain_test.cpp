@@ -141,7 +141,7 @@ TEST(TerrainTest, WhatIsOutOfRangeIsNamed) {
     change(parameters);
     return complaint(parameters);
   };
-  using testing::StartsWith;
+  using ::testing::StartsWith;
   EXPECT_EQ(with([](auto& t) { t.friction = 0.9; }), "friction is 0.9; allowed: 0.1 to 0.8");
   EXPECT_THAT(with([](auto& t) { t.friction = std::nan(""); }), StartsWith("friction is nan"));
   EXPECT_THAT(with([](auto& t) { t.slope_angle = 0.2; }), StartsWith("slope_angle is 0.2;"));

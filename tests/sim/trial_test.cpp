@@ -101,6 +101,76 @@ TEST_F(TrialTest, StandsWhenItIsToStand) {
   EXPECT_EQ(run_trial(spec, robot).outcome, TrialOutcome::timeout);
 }
 
+TEST_F(TrialTest, AListOfOneIsThePush) {
+  for (const double impulse : {6.0, 15.0, 150.0}) {
+    const TrialSpec one = spec_with(impulse);
+    TrialSpec list = one;
+    list.push.reset();
+    list.pushes = {*one.push};
+    const TrialResult expected = run_trial(one, robot);
+    const TrialResult result = run_trial(list, robot);
+    EXPECT_EQ(result.state_hash, expected.state_hash);
+    EXPECT_EQ(result.ticks, expected.ticks);
+    EXPECT_EQ(result.outcome, expected.outcome);
+    EXPECT_EQ(result.steps_to_recover, expected.steps_to_recover);
+    EXPECT_EQ(result.recovery_time_s, expected.recovery_time_s);
+    EXPECT_EQ(result.delivered_ns, expected.delivered_ns);
+    EXPECT_EQ(result.push_tick, expected.push_tick);
+    EXPECT_TRUE(expected.pushes.empty());
+    ASSERT_EQ(result.pushes.size(), 1U);
+    EXPECT_EQ(result.pushes[0].start_tick, expected.push_tick);
+    EXPECT_EQ(result.pushes[0].steps_to_recover, expected.steps_to_recover);
+    EXPECT_EQ(result.pushes[0].recovery_time_s, expected.recovery_time_s);
+    EXPECT_EQ(result.pushes[0].fell, expected.outcome == TrialOutcome::fell);
+  }
+}
+
+TEST_F(TrialTest, PushesOfAListComeOneAfterAnotherAndEachHasItsResult) {
+  TrialSpec spec = spec_with(6.0);
+  PushSpec push = *spec.push;
+  spec.push.reset();
+  spec.pushes = {push, push, push, push};
+  spec.pushes[1].trigger = PhaseTrigger{engine::WalkingState::single_support, Side::left, 0.5};
+  spec.pushes[2].trigger = TimeTrigger{8.0};
+  spec.pushes[3].impulse_ns = 0.05;
+  const TrialResult result = run_trial(spec, robot);
+  EXPECT_EQ(result.outcome, TrialOutcome::recovered);
+  ASSERT_EQ(result.pushes.size(), 4U);
+  EXPECT_EQ(result.pushes[0].start_tick, 3000U);
+  EXPECT_EQ(result.pushes[0].end_tick, 3049U);
+  EXPECT_GT(result.pushes[1].start_tick.value(), 3049U);
+  EXPECT_LT(result.pushes[1].start_tick.value(), 4000U);
+  EXPECT_EQ(result.pushes[2].start_tick, 8000U);
+  EXPECT_EQ(result.pushes[3].start_tick, 8050U);
+  EXPECT_NEAR(result.delivered_ns, 18.05, 1e-9);
+  EXPECT_EQ(result.push_tick, 3000U);
+  // The next one came before it was back.
+  EXPECT_FALSE(result.pushes[2].recovery_time_s);
+  EXPECT_TRUE(result.pushes[1].recovery_time_s);
+  EXPECT_EQ(result.ticks, 8100U + 4000U);
+}
+
+TEST_F(TrialTest, APushThatFellsEndsTheList) {
+  TrialSpec spec = spec_with(6.0);
+  PushSpec push = *spec.push;
+  spec.push.reset();
+  spec.pushes = {push, push, push};
+  spec.pushes[1].trigger = TimeTrigger{6.0};
+  spec.pushes[1].impulse_ns = 150.0;
+  spec.pushes[2].trigger = TimeTrigger{12.0};
+  const TrialResult result = run_trial(spec, robot);
+  EXPECT_EQ(result.outcome, TrialOutcome::fell);
+  EXPECT_FALSE(result.pushes[0].fell);
+  EXPECT_TRUE(result.pushes[0].recovery_time_s);
+  EXPECT_TRUE(result.pushes[1].fell);
+  EXPECT_FALSE(result.pushes[2].start_tick);
+  spec.pushes = {push, push};
+  spec.pushes[1].trigger = PhaseTrigger{engine::WalkingState::idle, {}, 0.5};
+  const TrialResult waited = run_trial(spec, robot);
+  EXPECT_EQ(waited.outcome, TrialOutcome::timeout);
+  EXPECT_EQ(waited.pushes[0].start_tick, 3000U);
+}
+
 TEST_F(TrialTest, RepeatsToTheBit) {
   EXPECT_EQ(run_trial(spec_with(6.0), robot).state_hash,
             run_trial(spec_with(6.0), robot).state_hash);

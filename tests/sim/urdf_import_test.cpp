@@ -11,7 +11,7 @@
 namespace stagger::sim {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -200,7 +200,7 @@ TEST(UrdfImport, LockedJointsHoldTheirLinksWhereTheyAreLocked) {
   EXPECT_LT((model.links.at("b").pose * Vec3::UnitX() - Vec3(1.0, 1.0, 0.0)).norm(), 1e-12);
   options.locked["nobody"] = 0.0;
   EXPECT_THAT([&] { import_urdf(two_links("revolute", plain_limit), "test.urdf", options); },
-              testing::ThrowsMessage<std::runtime_error>(
+              ::testing::ThrowsMessage<std::runtime_error>(
                   HasSubstr("has no joint 'nobody', which is to be locked")));
 }
 
@@ -249,7 +249,7 @@ TEST(UrdfImport, VisualMeshesAreNobodysBusiness) {
 
 TEST(UrdfImport, NamesTheFileThatIsMissing) {
   EXPECT_THAT([] { import_urdf_file("robots/nobody/robot.urdf"); },
-              testing::ThrowsMessage<std::runtime_error>(
+              ::testing::ThrowsMessage<std::runtime_error>(
                   HasSubstr("robots/nobody/robot.urdf: cannot be opened")));
 }
 

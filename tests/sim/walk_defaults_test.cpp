@@ -17,7 +17,7 @@ using nlohmann::json;
 /// Robot kasaei with another walk section; without one when `walk` is null.
 std::shared_ptr<const Robot> kasaei_that_walks(const json& walk) {
   const auto folder =
-      std::filesystem::path(testing::TempDir()) / ("walk_defaults_" + std::to_string(getpid()));
+      std::filesystem::path(::testing::TempDir()) / ("walk_defaults_" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);
   std::filesystem::copy_file("robots/kasaei/robot.urdf", folder / "robot.urdf",
                              std::filesystem::copy_options::overwrite_existing);
@@ -38,6 +38,7 @@ void expect_near(const WalkDescription& walk, const WalkDescription& wanted, dou
   EXPECT_NEAR(walk.t_ds_s, wanted.t_ds_s, tolerance);
   EXPECT_NEAR(walk.t_init_s, wanted.t_init_s, tolerance);
   EXPECT_NEAR(walk.max_step_length_m, wanted.max_step_length_m, tolerance);
+  EXPECT_NEAR(walk.max_step_back_m, wanted.max_step_back_m, tolerance);
   EXPECT_NEAR(walk.min_step_width_m, wanted.min_step_width_m, tolerance);
   EXPECT_NEAR(walk.max_step_width_m, wanted.max_step_width_m, tolerance);
 }
@@ -57,17 +58,20 @@ TEST(WalkDefaults, ScaleLengthsWithTheRobotAndTimesWithTheRootOfIt) {
   EXPECT_NEAR(small.t_init_s, 0.5 * large.t_init_s, 1e-12);
   EXPECT_NEAR(small.swing_height_m, 0.25 * large.swing_height_m, 1e-12);
   EXPECT_NEAR(small.max_step_length_m, 0.25 * large.max_step_length_m, 1e-12);
+  EXPECT_NEAR(small.max_step_back_m, 0.25 * large.max_step_back_m, 1e-12);
   EXPECT_NEAR(small.min_step_width_m, 0.25 * large.min_step_width_m, 1e-12);
   EXPECT_NEAR(small.max_step_width_m, 0.25 * large.max_step_width_m, 1e-12);
 }
 
 TEST(WalkDefaults, TheLongestStepFitsStraightLegs) {
   BipedProportions p = human;
-  p.hip_height = 0.96 * p.leg_length;
+  p.hip_height = std::sqrt(0.99) * p.leg_length;
   // Two right triangles with the leg as hypotenuse and the hip's height as one side.
-  EXPECT_NEAR(walk_defaults(p).max_step_length_m, 2.0 * 0.28 * p.leg_length, 1e-12);
+  EXPECT_NEAR(walk_defaults(p).max_step_length_m, 2.0 * 0.1 * p.leg_length, 1e-12);
+  EXPECT_NEAR(walk_defaults(p).max_step_back_m, 2.0 * 0.1 * p.leg_length, 1e-12);
   p.hip_height = 0.5 * p.leg_length;
-  EXPECT_NEAR(walk_defaults(p).max_step_length_m, 0.7 * p.leg_length, 1e-12);
+  EXPECT_NEAR(walk_defaults(p).max_step_length_m, 0.64 * p.leg_length, 1e-12);
+  EXPECT_NEAR(walk_defaults(p).max_step_back_m, 0.42 * p.leg_length, 1e-12);
 }
 
 TEST(WalkDefaults, FeetThatStandTooCloseStepWider) {
@@ -99,8 +103,8 @@ TEST(WalkDefaults, WidthsThatDoNotFitTheFormulasOthersAreRefused) {
     kasaei_that_walks({{"max_step_width_m", 0.15}});
     FAIL() << "loaded";
   } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("/walk/max_step_width_m is 0.15 m; allowed: at "
-                                                 "least stance_width_m (0.2 m)"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("/walk/max_step_width_m is 0.15 m; allowed: at "
+                                                   "least stance_width_m (0.2 m)"));
   }
 }
 

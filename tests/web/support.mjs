@@ -2,9 +2,19 @@
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { once } from 'node:events';
+import fs from 'node:fs';
+import os from 'node:os';
+import { createRequire } from 'node:module';
+import path from 'node:path';
+import { after, afterEach, before, beforeEach } from 'node:test';
 import { chromium } from 'playwright-core';
-import { binary, eventually, root, within } from '../server/support.mjs';
+import { Server, binary, eventually, root, within } from '../server/support.mjs';
 
+const axeSource = fs.readFileSync(
+  createRequire(import.meta.url).resolve('axe-core/axe.min.js'),
+  'utf8',
+);
+const patience = 120_000;
 const browser = process.env.CHROMIUM ?? '/usr/bin/chromium';
 
 /** One request that must work; the JSON of its answer. */
@@ -32,7 +42,9 @@ export async function newestFrame(server) {
 
 /** A server on a port that has been free a moment ago; returns what ends it. */
 export async function serveOnPort(port) {
-  const child = spawn(binary, ['serve', '--port', String(port), '--plant', 'lipm'], {
+  const data = fs.mkdtempSync(path.join(os.tmpdir(), 'stagger-data-'));
+  const args = ['serve', '--port', String(port), '--plant', 'lipm', '--data', data];
+  const child = spawn(binary, args, {
     env: { STAGGER_ROBOTS: `${root}/robots`, ...process.env },
     stdio: ['ignore', 'pipe', 'inherit'],
   });
@@ -41,6 +53,7 @@ export async function serveOnPort(port) {
     const ended = once(child, 'exit');
     child.kill('SIGKILL');
     await ended;
+    fs.rmSync(data, { recursive: true, force: true });
   };
 }
 
@@ -62,33 +75,84 @@ export function launchBrowser() {
   });
 }
 
-/** The dashboard in a page of its own, with everything that went wrong or elsewhere on record. */
+/**
+ * The set-up of a file of tests: one browser and one server of the pendulum for all of them; `open` makes the
+ * world of a test of them, and its page. After each test every page that is still open is closed and checked.
+ */
+export function onPages(open) {
+  let browser;
+  let server;
+  before(async () => {
+    browser = await launchBrowser();
+    server = await Server.start('--plant', 'lipm');
+  });
+  after(async () => {
+    await browser?.close();
+    await server?.kill();
+  });
+  beforeEach(() => open(browser, server));
+  afterEach(() => Dashboard.closeAll());
+}
+
+/** Between two drawings of the page [ms]: pictures made without a graphics card take all cores. */
+const seldom = 100;
+
+/**
+ * The dashboard in a page of its own, with everything that went wrong or elsewhere on record. It is
+ * drawn seldom, unless `period` says otherwise, and with a quarter of the pixels, unless it is to be
+ * looked at, `sharp`.
+ */
 export class Dashboard {
-  static async open(browser, url, { width = 1440, height = 900 } = {}) {
-    const context = await browser.newContext({ viewport: { width, height }, colorScheme: 'light' });
+  static #open = new Set();
+
+  static async open(
+    browser,
+    url,
+    { width = 1440, height = 900, colorScheme = 'light', live = true, sharp = false, period = seldom } = {},
+  ) {
+    const deviceScaleFactor = sharp ? 1 : 0.5;
+    const viewport = { width, height };
+    const context = await browser.newContext({ viewport, colorScheme, deviceScaleFactor });
     const page = await context.newPage();
-    const dashboard = new Dashboard(context, page);
-    await page.addInitScript(() => {
+    const dashboard = new Dashboard(context, page, new URL(url).host);
+    Dashboard.#open.add(dashboard);
+    await page.addInitScript((period) => {
+      const nextFrame = window.requestAnimationFrame.bind(window);
+      if (period > 0) {
+        window.requestAnimationFrame = (draw) => setTimeout(() => nextFrame(draw), period);
+      }
       window.violations = [];
       document.addEventListener('securitypolicyviolation', (event) =>
         window.violations.push(`${event.violatedDirective} ${event.blockedURI}`),
       );
-    });
+    }, period);
+    // A loaded machine takes its time; nothing here is about speed.
+    page.setDefaultTimeout(patience);
     await page.goto(url);
     await dashboard.until(
-      (s) => s.condition === 'live' && s.scene?.figure && s.tick !== null,
+      (s) => (!live || s.condition === 'live') && s.scene?.figure && s.tick !== null,
       'a live page',
     );
     return dashboard;
   }
 
-  constructor(context, page) {
+  /** What is still open, with its checks. */
+  static async closeAll() {
+    const ends = await Promise.allSettled([...Dashboard.#open].map((dashboard) => dashboard.close()));
+    for (const { reason } of ends) if (reason) throw reason;
+  }
+
+  constructor(context, page, host) {
     this.context = context;
     this.page = page;
+    this.host = host;
     this.errors = [];
+    /** Console errors that the test brings about on purpose. */
+    this.expected = [];
     this.hosts = new Set();
     page.on('console', (message) => {
-      if (message.type() === 'error') this.errors.push(message.text());
+      if (message.type() !== 'error') return;
+      this.errors.push(`${message.text()} ${message.location().url}`);
     });
     page.on('pageerror', (error) => this.errors.push(String(error)));
     const seen = (url) => {
@@ -98,8 +162,15 @@ export class Dashboard {
     page.on('websocket', (socket) => seen(socket.url()));
   }
 
-  close() {
-    return this.context.close();
+  /** Nothing may have gone wrong on the page but what was expected, nor gone to another server. */
+  async close() {
+    Dashboard.#open.delete(this);
+    const violations = await this.violations();
+    await this.context.close();
+    const errors = this.errors.filter((text) => !this.expected.some((known) => known.test(text)));
+    assert.deepEqual(errors, [], 'no error on the console');
+    assert.deepEqual(violations, [], 'nothing against the Content-Security-Policy');
+    assert.deepEqual([...this.hosts], [this.host], 'no host but the server');
   }
 
   state() {
@@ -111,11 +182,20 @@ export class Dashboard {
   }
 
   /** Looks until the drawn state is as wanted, and returns it. */
-  until(wanted, what) {
-    return eventually(async () => {
-      const state = await this.state();
-      return wanted(state) && state;
-    }, what);
+  async until(wanted, what) {
+    let state;
+    try {
+      return await eventually(async () => {
+        state = await this.state();
+        return wanted(state) && state;
+      }, what);
+    } catch (error) {
+      const { condition, tick, scene, plots } = state ?? {};
+      const { figure, tick: drawn } = scene ?? {};
+      const seen = { condition, tick, drawn, figure: figure?.kind, plotted: plots?.drawn_tick };
+      error.message += `; at last the page was ${JSON.stringify(seen)}`;
+      throw error;
+    }
   }
 
   text(selector) {
@@ -130,45 +210,118 @@ export class Dashboard {
     );
   }
 
-  click(selector) {
-    return this.page.click(selector);
+  /** Shows one of the panels on the left: push, walk, world. */
+  tab(name) {
+    return this.click(`#tab-${name}`);
+  }
+
+  /** Opens or closes a part of the page that can be folded. */
+  async fold(selector, open) {
+    const folded = () => this.page.locator(selector).evaluate((details) => !details.open);
+    if ((await folded()) === open) await this.click(`${selector} > summary`);
+  }
+
+  /** Where the robot's centre of mass is on the page [px]. */
+  async robotOnPage() {
+    const [x, y] = (await this.state()).scene.com_px;
+    const box = await this.page.locator('#scene').boundingBox();
+    return { x: box.x + x, y: box.y + y };
+  }
+
+  /** What axe-core finds wrong with the page while it has its stream: nothing, or what and where. */
+  async axe() {
+    await this.page.evaluate(axeSource);
+    const dimmed = ['lost', 'connecting'];
+    for (;;) {
+      await this.until((s) => !dimmed.includes(s.condition), 'the stream');
+      // On a busy machine the page may be so long without reading that it loses the stream: then
+      // what it shows is dimmed on purpose.
+      const { violations, wasDimmed } = await this.page.evaluate(async (dimmed) => {
+        const isDimmed = () => dimmed.includes(document.body.dataset.condition);
+        let wasDimmed = isDimmed();
+        const observer = new MutationObserver(() => (wasDimmed ||= isDimmed()));
+        observer.observe(document.body, { attributes: true });
+        const { violations } = await window.axe.run();
+        observer.disconnect();
+        return { violations, wasDimmed: wasDimmed || isDimmed() };
+      }, dimmed);
+      if (wasDimmed) continue;
+      return violations.map(({ id, nodes }) => `${id}: ${nodes.map((n) => n.html).join(' | ')}`);
+    }
+  }
+
+  /**
+   * A click of the mouse in the middle of what can be seen and pressed there. Playwright's own waits
+   * for several drawings of the page.
+   */
+  async click(selector) {
+    const place = await eventually(
+      () =>
+        this.page.evaluate((wanted) => {
+          const element = document.querySelector(wanted);
+          if (element === null || element.disabled) return null;
+          element.scrollIntoView({ block: 'nearest', inline: 'nearest' });
+          const { left, top, width, height } = element.getBoundingClientRect();
+          const [x, y] = [left + width / 2, top + height / 2];
+          const hit = document.elementFromPoint(x, y);
+          return element.contains(hit) ? { x, y } : null;
+        }, selector),
+      `${selector} to be clicked on`,
+    );
+    await this.page.mouse.click(place.x, place.y);
   }
 
   fill(selector, value) {
     return this.page.fill(selector, String(value));
   }
 
-  /** Pauses by the page's own button; all views have then drawn the last frame. */
-  async pause() {
-    if ((await this.text('#pause')) === 'Pause') await this.click('#pause');
+  /** What the server says of the simulation: the page may not know it yet. */
+  simulation() {
+    return this.page.evaluate(async () => (await fetch('api/v1/simulation')).json());
+  }
+
+  /** The tick of the server's newest frame. */
+  async newestTick() {
+    return (await this.simulation()).tick - 1; // that is the one to come
+  }
+
+  /** Looks until the page is paused and all views have drawn that tick. */
+  drawn(tick) {
     return this.until(
       (s) =>
         s.condition === 'paused' &&
-        s.scene.tick === s.tick &&
-        s.top_view.tick === s.tick &&
-        s.plots.drawn_tick === s.tick,
-      'a paused page with everything drawn',
+        s.tick === tick &&
+        s.scene.tick === tick &&
+        s.top_view.tick === tick &&
+        s.plots.drawn_tick === tick,
+      `a paused page that has drawn tick ${tick}`,
     );
   }
 
+  /** Pauses by the page's own button; all views have then drawn the last frame. */
+  async pause() {
+    if ((await this.simulation()).running) {
+      await this.shows('#pause', /^Pause$/);
+      await this.click('#pause');
+    }
+    await this.until((s) => s.condition === 'paused', 'a paused page');
+    return this.drawn(await this.newestTick());
+  }
+
   async resume() {
-    if ((await this.text('#pause')) === 'Resume') await this.click('#pause');
+    if (!(await this.simulation()).running) {
+      await this.shows('#pause', /^Resume$/);
+      await this.click('#pause');
+    }
     return this.until((s) => s.condition === 'live', 'a running simulation');
   }
 
   /** Advances a paused simulation by the page's own button. */
   async step(ticks) {
-    const { tick } = await this.state();
+    const tick = await this.newestTick();
     await this.fill('#step-ticks', ticks);
     await this.click('#step');
-    return this.until(
-      (s) =>
-        s.tick === tick + ticks &&
-        s.scene.tick === s.tick &&
-        s.top_view.tick === s.tick &&
-        s.plots.drawn_tick === s.tick,
-      `${ticks} ticks after ${tick}`,
-    );
+    return this.drawn(tick + ticks);
   }
 
   /** How many colours a picture of an element has: an empty canvas has one. */

@@ -28,9 +28,28 @@ export function formatShort(value: number, digits: number): string {
     : '–';
 }
 
+/** A server's time in the reader's own; as it is when it cannot be read. */
+export function localTime(iso: string): string {
+  const when = new Date(iso);
+  return Number.isNaN(when.getTime())
+    ? iso
+    : when.toLocaleString([], { dateStyle: 'short', timeStyle: 'medium' });
+}
+
 /** A value of a number field; NaN when it is empty or not a number. */
 export function numberIn(input: HTMLInputElement): number {
   return input.value.trim() === '' ? Number.NaN : input.valueAsNumber;
+}
+
+/** A small button of a list; `label` tells which row it is of, where its text does not. */
+export function smallButton(text: string, run: () => void, label?: string): HTMLButtonElement {
+  const made = document.createElement('button');
+  made.type = 'button';
+  made.className = 'small';
+  made.textContent = text;
+  if (label !== undefined) made.setAttribute('aria-label', label);
+  made.addEventListener('click', run);
+  return made;
 }
 
 /** Shows what went wrong, or nothing. */
@@ -58,4 +77,32 @@ export function fillSelect(
     if (values.includes(before)) select.value = before;
     else if (values.includes(preferred)) select.value = preferred;
   }
+}
+
+/** Keeps a row for each item on a list, in their order: rows stay, and with them what is typed there.
+ * `before`: children of the list that come before the rows. */
+export function keepRows<Item extends { readonly id: string }, Row extends { readonly element: HTMLElement }>(
+  list: HTMLElement,
+  rows: Map<string, Row>,
+  items: readonly Item[],
+  make: (item: Item) => Row,
+  update: (row: Row, item: Item) => void,
+  before = 0,
+): void {
+  const listed = new Set(items.map(({ id }) => id));
+  for (const [id, row] of rows) {
+    if (listed.has(id)) continue;
+    row.element.remove();
+    rows.delete(id);
+  }
+  items.forEach((item, i) => {
+    let row = rows.get(item.id);
+    if (row === undefined) {
+      row = make(item);
+      rows.set(item.id, row);
+    }
+    update(row, item);
+    const there = list.children[before + i];
+    if (there !== row.element) list.insertBefore(row.element, there ?? null);
+  });
 }

@@ -31,6 +31,14 @@ export function asNumbers(value: unknown): number[] {
   return asArray(value).filter((item): item is number => typeof item === 'number');
 }
 
+/** The fields that are true or false. */
+export function asBooleans(value: unknown): Record<string, boolean> {
+  const fields = Object.entries(isObject(value) ? value : {});
+  return Object.fromEntries(
+    fields.filter((field): field is [string, boolean] => typeof field[1] === 'boolean'),
+  );
+}
+
 /** Names from a list of strings or of objects with a `name`. */
 export function asNames(value: unknown): string[] {
   return asArray(value)

@@ -20,6 +20,8 @@ export interface Hello {
   readonly sessionId: string;
   readonly robot: string;
   readonly plant: string;
+  readonly seed: number;
+  readonly terrain: Readonly<Record<string, unknown>>;
   readonly tickSeconds: number;
   readonly channels: readonly Channel[];
   readonly states: readonly string[];
@@ -106,6 +108,8 @@ export function parseMessage(text: string): Message | null {
         sessionId: asString(value['session_id']),
         robot: asString(value['robot']),
         plant: asString(value['plant']),
+        seed: asNumber(value['seed'], 1),
+        terrain: isObject(value['terrain']) ? value['terrain'] : { kind: 'flat' },
         tickSeconds: asNumber(value['tick_s'], 0.001),
         channels: asArray(value['channels'])
           .map(parseChannel)

@@ -10,43 +10,39 @@ export interface PushTrigger {
   readonly fraction: number;
 }
 
+export type Vector = readonly [number, number, number];
+
 export interface PushChoice {
   readonly link: string;
-  readonly directionDeg: number;
-  readonly impulseNs: number;
+  /** In the link's frame [m]; null: the link's centre of mass. */
+  readonly point: Vector | null;
+  /** Degrees from the heading, or a vector in its frame. */
+  readonly direction: number | Vector;
+  /** One of the two is a number: the impulse [N s] or the peak force [N]. */
+  readonly strength: { readonly impulseNs: number } | { readonly forceN: number };
   readonly durationS: number;
   readonly profile: Profile;
-  readonly trigger: PushTrigger | null;
+  /** At once, at a phase of the gait, or at a simulation time [s]. */
+  readonly when: 'now' | PushTrigger | { readonly atS: number };
 }
 
+/** The request's body, as docs/api.md has it. */
 export interface PushBody {
-  readonly link: string;
-  readonly direction_deg: number;
-  readonly impulse_ns: number;
-  readonly duration_s: number;
-  readonly profile: Profile;
+  readonly link?: string;
+  readonly point?: Vector;
+  readonly direction_deg?: number;
+  readonly direction?: Vector;
+  readonly impulse_ns?: number;
+  readonly force_n?: number;
+  readonly duration_s?: number;
+  readonly profile?: Profile;
   readonly trigger?: PushTrigger;
+  readonly at_s?: number;
 }
 
 /** The four directions of the pad, in the frame of the robot's heading [deg]. */
 export const directions = { forward: 0, left: 90, backward: 180, right: 270 } as const;
 export type Direction = keyof typeof directions;
-
-/** Which direction an arrow key pushes in, or null. */
-export function directionOfKey(key: string): Direction | null {
-  switch (key) {
-    case 'ArrowUp':
-      return 'forward';
-    case 'ArrowLeft':
-      return 'left';
-    case 'ArrowDown':
-      return 'backward';
-    case 'ArrowRight':
-      return 'right';
-    default:
-      return null;
-  }
-}
 
 /** Words for a direction: a name on the four axes, else degrees. */
 export function directionName(degrees: number): string {
@@ -57,10 +53,19 @@ export function directionName(degrees: number): string {
   return `${Number(turn.toFixed(1))}°`;
 }
 
-/** Peak of a force with this impulse [N]; a half sine peaks pi/2 above the constant force. */
+/** Peak of a force over the constant force of the same impulse. */
+function peakOf(profile: Profile): number {
+  return profile === 'half_sine' ? Math.PI / 2 : 1;
+}
+
+/** Peak of a force with this impulse [N]. */
 export function peakForce(impulseNs: number, durationS: number, profile: Profile): number {
-  const mean = impulseNs / durationS;
-  return profile === 'half_sine' ? (mean * Math.PI) / 2 : mean;
+  return (impulseNs / durationS) * peakOf(profile);
+}
+
+/** Impulse of a force with this peak [N s]. */
+export function impulseOf(forceN: number, durationS: number, profile: Profile): number {
+  return (forceN * durationS) / peakOf(profile);
 }
 
 /** Change of the centre of mass's velocity that the impulse amounts to [m/s]. */
@@ -68,25 +73,61 @@ export function deltaV(impulseNs: number, massKg: number): number {
   return impulseNs / massKg;
 }
 
+/** An impulse that changes the robot's velocity by about this much, in two digits [N s]. */
+export function impulseFor(deltaVMs: number, massKg: number): number {
+  return Number((deltaVMs * massKg).toPrecision(2));
+}
+
 /** The words that name the first number that is missing, or null when all are there. */
 export function missingNumber(choice: PushChoice): string | null {
-  if (!Number.isFinite(choice.impulseNs)) return 'The impulse is not a number.';
+  const { strength, when, point, direction } = choice;
+  if ('impulseNs' in strength && !Number.isFinite(strength.impulseNs)) {
+    return 'The impulse is not a number.';
+  }
+  if ('forceN' in strength && !Number.isFinite(strength.forceN)) {
+    return 'The force is not a number.';
+  }
   if (!Number.isFinite(choice.durationS)) return 'The duration is not a number.';
-  if (!Number.isFinite(choice.directionDeg)) return 'The direction is not a number.';
-  if (choice.trigger !== null && !Number.isFinite(choice.trigger.fraction)) {
+  const parts = typeof direction === 'number' ? [direction] : direction;
+  if (!parts.every(Number.isFinite)) return 'The direction is not a number.';
+  if (point !== null && !point.every(Number.isFinite)) {
+    return 'The point needs three numbers, or none for the centre of mass.';
+  }
+  if (when !== 'now' && 'phase' in when && !Number.isFinite(when.fraction)) {
     return 'The fraction of the phase is not a number.';
+  }
+  if (when !== 'now' && 'atS' in when && !Number.isFinite(when.atS)) {
+    return 'The time of the push is not a number.';
   }
   return null;
 }
 
 /** The request's body. Ranges are the server's business: it says what is allowed. */
 export function buildPush(choice: PushChoice): PushBody {
+  const { point, direction, strength, when } = choice;
   return {
     link: choice.link,
-    direction_deg: choice.directionDeg,
-    impulse_ns: choice.impulseNs,
+    ...(point === null ? {} : { point }),
+    ...(typeof direction === 'number' ? { direction_deg: direction } : { direction }),
+    ...('impulseNs' in strength
+      ? { impulse_ns: strength.impulseNs }
+      : { force_n: strength.forceN }),
     duration_s: choice.durationS,
     profile: choice.profile,
-    ...(choice.trigger === null ? {} : { trigger: choice.trigger }),
+    ...(when === 'now' ? {} : 'phase' in when ? { trigger: when } : { at_s: when.atS }),
   };
+}
+
+/** The same push when a phase comes, or at once. */
+export function pushAgain(body: PushBody, trigger: PushTrigger | null): PushBody {
+  const again = Object.fromEntries(
+    Object.entries(body).filter(([name]) => name !== 'at_s' && name !== 'trigger'),
+  ) as PushBody;
+  return trigger === null ? again : { ...again, trigger };
+}
+
+/** The same push for a terminal. */
+export function curlOf(origin: string, body: PushBody): string {
+  const json = JSON.stringify(body).replaceAll("'", "'\\''");
+  return `curl -X POST ${origin}/api/v1/pushes -H 'Content-Type: application/json' -d '${json}'`;
 }

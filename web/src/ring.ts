@@ -40,11 +40,24 @@ export class RingTable<Name extends string> {
     this.count = 0;
   }
 
-  /** Rows `from` (0 is the oldest) to the newest, no copy: valid until the ring comes round. */
-  view(name: Name, from = 0): Float64Array {
+  /** Rows `from` (0 is the oldest) up to `to`, no copy: valid until the ring comes round. */
+  view(name: Name, from = 0, to = this.count): Float64Array {
     const column = this.column(name);
     const start = this.start();
-    return column.subarray(start + Math.min(Math.max(from, 0), this.count), start + this.count);
+    const first = Math.min(Math.max(from, 0), this.count);
+    return column.subarray(start + first, start + Math.min(Math.max(to, first), this.count));
+  }
+
+  /** The rows held now in a table of their own. */
+  copy(): RingTable<Name> {
+    const copy = new RingTable(this.names, Math.max(1, this.count));
+    for (const [name, column] of copy.columns) {
+      const values = this.view(name);
+      column.set(values);
+      column.set(values, copy.capacity);
+    }
+    copy.count = this.count;
+    return copy;
   }
 
   /** The newest value, or undefined. */

@@ -2,17 +2,24 @@
 // panels are told when something that they show has changed.
 
 import type { RobotInfo, SimulationState } from './api';
+import { PushStory } from './explain';
 import type { Data, Hello, StreamEvent } from './protocol';
+import type { PushResource } from './push_body';
 import { RingTable } from './ring';
+import { fixedSeries, jointsOf, rowOf, torqueSeries } from './series';
 import type { Connection } from './stream';
+import { Terrain } from './terrain';
 
 /** Telemetry rate asked for, in simulation time [Hz]: a push of 10 ms is always seen. */
 export const rateHz = 100;
-/** What the plots look back on [s]. */
-export const windowSeconds = 10;
+/** How far back the plots can look [s]. */
+export const historySeconds = 60;
 /** A quarter of slack, so that a plot's view stays whole between two redraws. */
-const ringCapacity = rateHz * windowSeconds * 1.25;
+const ringCapacity = rateHz * historySeconds * 1.25;
 const maxEvents = 400;
+const maxFootprints = 40;
+/** A second of frames: what a push is told after may come before the word of it. */
+const rememberedFrames = rateHz;
 
 /** Channels of docs/stream.md that the page uses. */
 export const usedChannels = [
@@ -21,9 +28,11 @@ export const usedChannels = [
   'phase_time',
   't_ss',
   't_ds',
+  'planned_t_ss',
   'step_count',
   'com',
   'com_velocity',
+  'angular_momentum',
   'dcm',
   'zmp',
   'com_reference',
@@ -39,54 +48,51 @@ export const usedChannels = [
   'right_foot_target',
   'foot_load',
   'joint_position',
+  'joint_torque',
   'planned_step',
   'adjusted_step',
   'preview',
   'support_polygon',
+  'reachable_footholds',
+  'capture_region',
+  'swing_path',
+  'ground_forces',
   'push_force',
   'push_point',
   'fallen',
 ] as const;
 export type ChannelName = (typeof usedChannels)[number];
 
-export const seriesNames = [
-  't',
-  'com_x',
-  'com_y',
-  'com_reference_x',
-  'com_reference_y',
-  'dcm_x',
-  'dcm_y',
-  'dcm_reference_x',
-  'dcm_reference_y',
-  'zmp_x',
-  'zmp_y',
-  'zmp_reference_x',
-  'zmp_reference_y',
-  'polygon_min_x',
-  'polygon_max_x',
-  'polygon_min_y',
-  'polygon_max_y',
-  'dcm_error',
-] as const;
-export type SeriesName = (typeof seriesNames)[number];
+/** Where a foot has landed, and where it was planned to. */
+export interface Footprint {
+  readonly x: number;
+  readonly y: number;
+  readonly z: number;
+  readonly yaw: number;
+  /** 0 left, 1 right. */
+  readonly side: number;
+  readonly t: number;
+}
 
 /** The connection and the robot's condition in one word for the user. */
 export type Condition = 'connecting' | 'live' | 'paused' | 'fallen' | 'lost';
 
-export type Topic =
-  'connection' | 'hello' | 'running' | 'event' | 'simulation' | 'robot' | 'robots' | 'condition';
+export const topics = [
+  'connection',
+  'hello',
+  'running',
+  'event',
+  'pushes',
+  'simulation',
+  'robot',
+  'robots',
+  'condition',
+] as const;
+export type Topic = (typeof topics)[number];
 
-/** Least and greatest of every other number from `offset`, or NaN for an empty list. */
-function extent(values: readonly number[], offset: number): [number, number] {
-  let low = Number.NaN;
-  let high = Number.NaN;
-  for (let i = offset; i < values.length; i += 2) {
-    const value = values[i] ?? Number.NaN;
-    if (!(low <= value)) low = value;
-    if (!(high >= value)) high = value;
-  }
-  return [low, high];
+/** Events have numbers for values: 1 is on. */
+function switchesOf({ values }: StreamEvent): Record<string, boolean> {
+  return Object.fromEntries(Object.entries(values).map(([name, on]) => [name, on === 1]));
 }
 
 export class Store {
@@ -99,17 +105,31 @@ export class Store {
   simulation: SimulationState | null = null;
   robot: RobotInfo | null = null;
   robots: readonly RobotInfo[] = [];
-  readonly series = new RingTable<SeriesName>(seriesNames, ringCapacity);
+  /** Rows of numbers for the plots; made anew for each session, as joints have it. */
+  series = new RingTable<string>(fixedSeries, ringCapacity);
+  terrain = new Terrain();
+  /** Where the feet have landed since this page looks, oldest first. */
+  footprints: Footprint[] = [];
+  torqueJoints: readonly string[] = [];
   /** Oldest first. */
-  readonly events: StreamEvent[] = [];
+  events: StreamEvent[] = [];
+  /** The newest ones, newest first, the one that is told of among them. */
+  pushes: readonly PushResource[] = [];
+  /** Which strategies may act, as far as it is known. */
+  strategies: Readonly<Record<string, boolean>> = {};
+  /** What the strategies did about the newest push. */
+  story: PushStory | null = null;
   /** Goes up with every data message, hello and clearing. */
   version = 0;
   framesReceived = 0;
   framesDropped = 0;
+  /** How far what is shown is behind the server, as far as this page can tell [ms]. */
+  behindMs = 0;
 
   private readonly listeners = new Map<Topic, (() => void)[]>();
   private lastCondition: Condition = 'connecting';
   private jointNames: readonly string[] = [];
+  private readonly lately: Data[] = [];
 
   on(topic: Topic, listener: () => void): void {
     const list = this.listeners.get(topic) ?? [];
@@ -124,17 +144,46 @@ export class Store {
     this.noteCondition();
   }
 
+  /** Shows what another store knows, the very same objects, and tells of those topics. */
+  mirror(other: Store, ...news: readonly Topic[]): void {
+    this.connection = other.connection;
+    this.hello = other.hello;
+    this.frame = other.frame;
+    this.running = other.running;
+    this.simulation = other.simulation;
+    this.robot = other.robot;
+    this.robots = other.robots;
+    this.series = other.series;
+    this.terrain = other.terrain;
+    this.footprints = other.footprints;
+    this.torqueJoints = other.torqueJoints;
+    this.events = other.events;
+    this.pushes = other.pushes;
+    this.strategies = other.strategies;
+    this.story = other.story;
+    this.jointNames = other.jointNames;
+    this.version += 1;
+    for (const topic of news) this.tell(topic);
+  }
+
   /** A session begins: nothing of the one before is kept. */
   setHello(hello: Hello): void {
     this.hello = hello;
-    this.jointNames =
-      hello.channels
-        .find((channel) => channel.name === 'joint_position')
-        ?.components.map((component) => component.name) ?? [];
+    this.jointNames = jointsOf(hello, 'joint_position');
+    this.torqueJoints = jointsOf(hello, 'joint_torque');
+    this.terrain = new Terrain(hello.terrain, hello.seed);
     this.frame = null;
     this.simulation = null;
-    this.series.clear();
+    this.footprints.length = 0;
+    this.series = new RingTable<string>(
+      [...fixedSeries, ...this.torqueJoints.map(torqueSeries)],
+      ringCapacity,
+    );
     this.events.length = 0;
+    this.pushes = [];
+    this.strategies = {};
+    this.story = null;
+    this.lately.length = 0;
     this.framesReceived = 0;
     this.framesDropped = 0;
     this.version += 1;
@@ -147,14 +196,30 @@ export class Store {
     this.frame = frame;
     this.framesReceived += 1;
     this.version += 1;
-    if (before === null || frame.t > before.t) this.appendSeries(frame);
+    if (before !== null) this.noteLanding(before, frame);
+    if (before === null || frame.t > before.t) {
+      const states = this.hello?.states ?? [];
+      const mass = this.robot?.massKg ?? Number.NaN;
+      this.series.push(rowOf(frame.t, frame.v, states, this.torqueJoints, mass));
+    }
+    this.lately.push(frame);
+    if (this.lately.length > rememberedFrames) this.lately.shift();
+    this.story?.look(frame, this.hello?.states ?? []);
     this.noteCondition();
   }
 
   addEvent(event: StreamEvent): void {
     this.events.push(event);
     if (this.events.length > maxEvents) this.events.splice(0, this.events.length - maxEvents);
+    this.story?.take(event);
+    if (event.kind === 'strategies') this.strategies = switchesOf(event);
+    if (event.kind === 'push_started') this.begin(new PushStory(event, this.strategies));
     this.tell('event');
+  }
+
+  setPushes(pushes: readonly PushResource[]): void {
+    this.pushes = pushes;
+    this.tell('pushes');
   }
 
   setRunning(running: boolean): void {
@@ -168,6 +233,7 @@ export class Store {
     // An answer that was under way while the session changed tells of the old one.
     if (this.hello !== null && simulation.sessionId !== this.hello.sessionId) return;
     this.simulation = simulation;
+    this.strategies = simulation.strategies;
     this.setRunning(simulation.running);
     this.tell('simulation');
     this.noteCondition();
@@ -216,45 +282,34 @@ export class Store {
     return this.running ? 'live' : 'paused';
   }
 
+  /** Where the robot's trunk is meant to look [rad]; pushes are told from there. */
+  get heading(): number {
+    const left = this.values('left_foot_target')[3] ?? 0;
+    const right = this.values('right_foot_target')[3] ?? 0;
+    const turn = right - left;
+    return left + 0.5 * (turn - 2 * Math.PI * Math.round(turn / (2 * Math.PI)));
+  }
+
   /** Name of the walking state in the newest frame. */
   get walkingState(): string {
     return this.hello?.states[this.value('state')] ?? '';
   }
 
-  private appendSeries(frame: Data): void {
-    const pair = (name: ChannelName): readonly [number, number] => {
-      const values = frame.v[name];
-      return [values?.[0] ?? Number.NaN, values?.[1] ?? Number.NaN];
-    };
-    const [comX, comY] = pair('com');
-    const [comReferenceX, comReferenceY] = pair('com_reference');
-    const [dcmX, dcmY] = pair('dcm');
-    const [dcmReferenceX, dcmReferenceY] = pair('dcm_reference');
-    const [zmpX, zmpY] = pair('zmp');
-    const [zmpReferenceX, zmpReferenceY] = pair('zmp_reference');
-    const polygon = frame.v['support_polygon'] ?? [];
-    const [polygonMinX, polygonMaxX] = extent(polygon, 0);
-    const [polygonMinY, polygonMaxY] = extent(polygon, 1);
-    this.series.push({
-      t: frame.t,
-      com_x: comX,
-      com_y: comY,
-      com_reference_x: comReferenceX,
-      com_reference_y: comReferenceY,
-      dcm_x: dcmX,
-      dcm_y: dcmY,
-      dcm_reference_x: dcmReferenceX,
-      dcm_reference_y: dcmReferenceY,
-      zmp_x: zmpX,
-      zmp_y: zmpY,
-      zmp_reference_x: zmpReferenceX,
-      zmp_reference_y: zmpReferenceY,
-      polygon_min_x: polygonMinX,
-      polygon_max_x: polygonMaxX,
-      polygon_min_y: polygonMinY,
-      polygon_max_y: polygonMaxY,
-      dcm_error: Math.hypot(dcmX - dcmReferenceX, dcmY - dcmReferenceY),
-    });
+  /** The frames of the moment before it, and those that were quicker than the word of it. */
+  private begin(story: PushStory): void {
+    for (const frame of this.lately) story.look(frame, this.hello?.states ?? []);
+    this.story = story;
+  }
+
+  /** A landing shows as one more step between two frames; the foot that the ZMP leaves stood. */
+  private noteLanding(before: Data, frame: Data): void {
+    const landed = (frame.v['step_count']?.[0] ?? 0) > (before.v['step_count']?.[0] ?? 0);
+    if (!landed) return;
+    const side = (before.v['support_side']?.[0] ?? 0) > 0.5 ? 0 : 1;
+    const [x, y, z, yaw] = frame.v[side === 0 ? 'left_foot' : 'right_foot'] ?? [];
+    if (x === undefined || y === undefined || z === undefined || yaw === undefined) return;
+    this.footprints.push({ x, y, z, yaw, side, t: frame.t });
+    if (this.footprints.length > maxFootprints) this.footprints.shift();
   }
 
   private noteCondition(): void {

@@ -35,6 +35,8 @@ export interface StreamOptions {
   /** Channels that the page uses; those that the server does not have are left out. */
   readonly channels: readonly string[];
   readonly openSocket: (url: string) => Socket;
+  /** Fetches the ticket that the server wants in the address; none is sent without this. */
+  readonly ticket?: () => Promise<string>;
 }
 
 /** The server sends a heartbeat each second; three missed ones mean that it is gone. */
@@ -61,6 +63,10 @@ export class Stream {
   private socket: Socket | null = null;
   private open = false;
   private failures = 0;
+  /** Counts, so that a ticket that comes too late opens nothing. */
+  private attempt = 0;
+  private rateHz: number;
+  private published: readonly string[] = [];
   private lastSeq: number | null = null;
   private lastHeard = 0;
   private lastWatched = 0;
@@ -70,7 +76,9 @@ export class Stream {
   constructor(
     private readonly options: StreamOptions,
     private readonly handlers: StreamHandlers,
-  ) {}
+  ) {
+    this.rateHz = options.rateHz;
+  }
 
   start(): void {
     this.stop();
@@ -86,6 +94,12 @@ export class Stream {
     this.drop();
   }
 
+  /** Asks for so many frames a second of simulation time from now on. */
+  setRate(rateHz: number): void {
+    this.rateHz = rateHz;
+    if (this.open) this.subscribe();
+  }
+
   /** Tries at once instead of waiting. */
   retryNow(): void {
     if (this.retryTimer === null) return;
@@ -98,9 +112,28 @@ export class Stream {
     this.lastSeq = null;
     this.lastHeard = Date.now();
     this.handlers.connection({ kind: 'connecting' });
+    const { ticket, url } = this.options;
+    if (ticket === undefined) {
+      this.openSocket(url);
+      return;
+    }
+    this.attempt += 1;
+    const { attempt } = this;
+    ticket().then(
+      (text) => {
+        if (attempt === this.attempt) this.openSocket(`${url}?ticket=${encodeURIComponent(text)}`);
+      },
+      (error: unknown) => {
+        const reason = error instanceof Error ? error.message : 'the server does not answer';
+        if (attempt === this.attempt) this.lose(reason);
+      },
+    );
+  }
+
+  private openSocket(url: string): void {
     let socket: Socket;
     try {
-      socket = this.options.openSocket(this.options.url);
+      socket = this.options.openSocket(url);
     } catch (error) {
       this.lose(error instanceof Error ? error.message : 'the address is not valid');
       return;
@@ -149,22 +182,27 @@ export class Stream {
   }
 
   private welcome(hello: Hello): void {
-    const published = new Set(hello.channels.map((channel) => channel.name));
+    this.published = hello.channels.map((channel) => channel.name);
     this.lastSeq = null;
     this.failures = 0;
     this.handlers.hello(hello);
-    this.socket?.send(
-      JSON.stringify({
-        op: 'subscribe',
-        rate_hz: this.options.rateHz,
-        channels: this.options.channels.filter((name) => published.has(name)),
-        events: true,
-      }),
-    );
+    this.subscribe();
     if (!this.open) {
       this.open = true;
       this.handlers.connection({ kind: 'open' });
     }
+  }
+
+  private subscribe(): void {
+    this.lastSeq = null;
+    this.socket?.send(
+      JSON.stringify({
+        op: 'subscribe',
+        rate_hz: this.rateHz,
+        channels: this.options.channels.filter((name) => this.published.includes(name)),
+        events: true,
+      }),
+    );
   }
 
   private watch(): void {
@@ -195,6 +233,7 @@ export class Stream {
 
   private drop(): void {
     const socket = this.socket;
+    this.attempt += 1;
     this.socket = null;
     this.open = false;
     if (socket === null) return;

@@ -1,5 +1,6 @@
 import { afterEach, describe, expect, it, vi } from 'vitest';
-import { Api, Problem, parsePush, parseRobot, problemFrom } from '../src/api';
+import { Api, Problem, parseRobot, problemFrom } from '../src/api';
+import { parsePush } from '../src/push_body';
 
 describe('problemFrom', () => {
   it('reads RFC 9457 and puts each field into one line', () => {
@@ -89,5 +90,38 @@ describe('Api', () => {
   it('says so when nobody answers', async () => {
     vi.stubGlobal('fetch', () => Promise.reject(new TypeError('connection refused')));
     await expect(new Api().pause()).rejects.toThrow('The server does not answer');
+  });
+});
+
+describe('a key', () => {
+  afterEach(() => vi.unstubAllGlobals());
+
+  const answers = (status: number): ReturnType<typeof vi.fn> => {
+    const fetched = vi.fn(() => Promise.resolve(new Response('{"ticket":"t"}', { status })));
+    vi.stubGlobal('fetch', fetched);
+    return fetched;
+  };
+  const sent = (fetched: ReturnType<typeof vi.fn>): Record<string, string> =>
+    (fetched.mock.calls[0]?.[1] as { headers: Record<string, string> }).headers;
+
+  it('goes with every request, in a header', async () => {
+    const fetched = answers(200);
+    const api = new Api('/api/v1', () => 'secret');
+    expect(await api.ticket()).toBe('t');
+    expect(fetched.mock.calls[0]?.[0]).toBe('/api/v1/tickets');
+    expect(sent(fetched)).toMatchObject({ Authorization: 'Bearer secret' });
+  });
+
+  it('is left out when there is none', async () => {
+    const fetched = answers(200);
+    await new Api().simulation();
+    expect(sent(fetched)).toEqual({});
+  });
+
+  it('is asked for when the server wants one', async () => {
+    answers(401);
+    const refused = vi.fn();
+    await expect(new Api('/api/v1', () => '', refused).simulation()).rejects.toThrow(Problem);
+    expect(refused).toHaveBeenCalledOnce();
   });
 });

@@ -55,4 +55,15 @@ describe('RingTable', () => {
       expect(() => new RingTable(['t'], capacity)).toThrow(/allowed: whole numbers from 1/);
     }
   });
+
+  it('copies what it holds', () => {
+    const ring = new RingTable(['t'], 4);
+    for (let i = 0; i < 6; i += 1) ring.push({ t: i });
+    const copy = ring.copy();
+    ring.push({ t: 6 });
+    expect([...copy.view('t')]).toEqual([2, 3, 4, 5]);
+    expect(copy.lowerBound('t', 4)).toBe(2);
+    expect([...copy.view('t', 1, 3)]).toEqual([3, 4]);
+    expect(new RingTable(['t'], 3).copy().length).toBe(0);
+  });
 });

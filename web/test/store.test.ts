@@ -50,26 +50,57 @@ describe('Store', () => {
   });
 
   it('stays in bounded memory over a long run', () => {
-    for (let i = 0; i < 5000; i += 1) {
-      frame(i, i / 100);
+    for (let i = 0; i < 9000; i += 1) {
+      frame(i, i / 100, { step_count: [i], left_foot: [i, 0, 0, 0], right_foot: [i, 0, 0, 0] });
       store.addEvent(event('step', i / 100));
     }
     expect(store.series.length).toBe(store.series.capacity);
+    expect(store.footprints.length).toBe(40);
     expect(store.events.length).toBe(400);
-    expect(store.events[399]?.t).toBeCloseTo(49.99, 9);
+    expect(store.events[399]?.t).toBeCloseTo(89.99, 9);
+  });
+
+  it('tells of a push from its begin on, also by frames that are quicker than the word of it', () => {
+    const square = [0, 0, 0.2, 0, 0.2, 0.1, 0, 0.1];
+    const at = (t: number, zmp: number, l: number): void =>
+      frame(0, t, {
+        state: [2],
+        support_side: [0],
+        phase_time: [t - 1.9],
+        t_ss: [0.4],
+        angular_momentum: [l, 0],
+        zmp_reference: [0.05, 0.05],
+        zmp_command: [zmp, 0.05],
+        support_polygon: square,
+      });
+    at(1.97, 0.19, 7);
+    at(1.98, 0.05, 1);
+    at(2, 0.11, 3);
+    at(2.01, 0.06, 3.5);
+    store.addEvent({ ...event('push_started', 1.981), values: { id: 4, duration_s: 0.1 } });
+    at(2.02, 0.05, 2);
+    const { story } = store;
+    expect(story?.id).toBe(4);
+    expect(story?.trigger).toEqual({ phase: 'single_support', leg: 'left', fraction: 0.203 });
+    expect(story?.ankle?.shiftM).toBeCloseTo(0.06, 12);
+    expect(story?.hipNms).toBeCloseTo(2.5, 12);
   });
 
   it('clears everything at a new session', () => {
     frame(0, 5);
-    store.addEvent(event('fall', 5));
+    store.addEvent(event('push_started', 5));
     store.addDropped(3);
     store.setHello(read<Hello>(hello('b')));
     expect(store.frame).toBeNull();
     expect(store.series.length).toBe(0);
     expect(store.events).toEqual([]);
+    expect(store.story).toBeNull();
     expect(store.framesDropped).toBe(0);
     frame(0, 0.01);
     expect(store.series.length).toBe(1);
+    // Of the frames of the session before none is the begin of a push in this one.
+    store.addEvent(event('push_started', 5));
+    expect(store.story?.hipNms).toBe(0);
   });
 
   it('pairs joints with the names of hello', () => {
@@ -125,5 +156,20 @@ describe('Store', () => {
   it('names the walking state', () => {
     frame(0, 0.01, { state: [2] });
     expect(store.walkingState).toBe('single_support');
+  });
+
+  it('keeps where the feet have landed', () => {
+    const feet = { left_foot: [0, 0.1, 0, 0], right_foot: [0.2, -0.1, 0.01, 0.3] };
+    frame(0, 0.01, { step_count: [4], support_side: [0], ...feet });
+    frame(1, 0.02, { step_count: [5], support_side: [0], ...feet });
+    frame(2, 0.03, { step_count: [5], support_side: [1], ...feet });
+    expect(store.footprints).toEqual([
+      { x: 0.2, y: -0.1, z: 0.01, yaw: 0.3, side: 1, t: 0.02 },
+    ]);
+  });
+
+  it('looks where its feet look, also across the turn', () => {
+    frame(0, 0.01, { left_foot_target: [0, 0, 0, 3.1], right_foot_target: [0, 0, 0, -3.1] });
+    expect(Math.cos(store.heading)).toBeCloseTo(-1, 2);
   });
 });

@@ -241,4 +241,53 @@ describe('Stream', () => {
     vi.advanceTimersByTime(60_000);
     expect(sockets.length).toBe(1);
   });
+
+  it('brings the ticket that it is given, and none that comes too late', async () => {
+    stream.stop();
+    const urls: string[] = [];
+    const tickets: ((ticket: string) => void)[] = [];
+    const other = new Stream(
+      {
+        url: 'ws://test/stream',
+        rateHz: 100,
+        channels: [],
+        openSocket: (url) => {
+          urls.push(url);
+          return new FakeSocket();
+        },
+        ticket: () => new Promise((resolve) => tickets.push(resolve)),
+      },
+      handlers,
+    );
+    other.start();
+    expect(urls).toEqual([]);
+    tickets[0]?.('a b');
+    await vi.advanceTimersByTimeAsync(0);
+    expect(urls).toEqual(['ws://test/stream?ticket=a%20b']);
+    other.start();
+    other.stop();
+    tickets[1]?.('late');
+    await vi.advanceTimersByTimeAsync(0);
+    expect(urls).toHaveLength(1);
+  });
+
+  it('tries again when there is no ticket', async () => {
+    stream.stop();
+    connections.length = 0;
+    const other = new Stream(
+      {
+        url: 'ws://test/stream',
+        rateHz: 100,
+        channels: [],
+        openSocket: () => new FakeSocket(),
+        ticket: () => Promise.reject(new Error('a key is needed')),
+      },
+      handlers,
+    );
+    other.start();
+    await vi.advanceTimersByTimeAsync(0);
+    expect(connections.map((connection) => connection.kind)).toEqual(['connecting', 'lost']);
+    expect(connections[1]).toMatchObject({ reason: 'a key is needed' });
+    other.stop();
+  });
 });

@@ -2,11 +2,13 @@ import { describe, expect, it } from 'vitest';
 import {
   GroundTransform,
   lag,
+  overlapOf,
   polygonFrom,
   scaleBarLength,
   soleCorners,
   stepsFrom,
 } from '../src/views/transform';
+import type { Point } from '../src/views/transform';
 
 describe('GroundTransform', () => {
   const view = new GroundTransform({ x: 2, y: -1 }, 200, 400, 300);
@@ -81,5 +83,36 @@ describe('lists in a frame', () => {
       { x: 1, y: 2 },
       { x: 3, y: 4 },
     ]);
+  });
+});
+
+describe('overlapOf', () => {
+  const square = (x: number, y: number, side: number): Point[] => [
+    { x, y },
+    { x: x + side, y },
+    { x: x + side, y: y + side },
+    { x, y: y + side },
+  ];
+  const area = (points: readonly Point[]): number =>
+    points.reduce((sum, p, i) => {
+      const next = points[(i + 1) % points.length] ?? p;
+      return sum + (p.x * next.y - next.x * p.y) / 2;
+    }, 0);
+
+  it('is what two areas have in common', () => {
+    expect(area(overlapOf(square(0, 0, 2), square(1, 1, 2)))).toBeCloseTo(1, 12);
+    expect(area(overlapOf(square(0, 0, 2), square(0.5, 0.5, 1)))).toBeCloseTo(1, 12);
+    const diamond = [
+      { x: 1, y: 0 },
+      { x: 2, y: 1 },
+      { x: 1, y: 2 },
+      { x: 0, y: 1 },
+    ];
+    expect(area(overlapOf(square(0, 0, 1), diamond))).toBeCloseTo(0.5, 12);
+  });
+
+  it('is empty where they have nothing in common', () => {
+    expect(overlapOf(square(0, 0, 1), square(3, 0, 1))).toEqual([]);
+    expect(overlapOf([], square(0, 0, 1))).toEqual([]);
   });
 });

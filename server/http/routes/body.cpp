@@ -1,8 +1,8 @@
 #include "server/http/routes/body.h"
 
-#include <algorithm>
-#include <cctype>
+#include <charconv>
 
+#include "server/http/message.h"
 #include "server/http/problem.h"
 #include "sim/json_file.h"
 
@@ -13,12 +13,11 @@ namespace {
 bool is_json(std::string type) {
   type = type.substr(0, type.find(';'));
   while (!type.empty() && type.back() == ' ') type.pop_back();
-  std::transform(type.begin(), type.end(), type.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return type == "application/json";
+  return lower(type) == "application/json";
 }
 
 nlohmann::json parse_body(const HttpRequest& request, bool may_be_empty) {
+  if (!request.form.empty()) throw Problem(415, "the body is a form; send application/json");
   if (request.body.empty()) {
     if (may_be_empty) return nlohmann::json::object();
     throw Problem(400, "the body is empty; send a JSON object");
@@ -45,6 +44,8 @@ void read_body(const HttpRequest& request, bool may_be_empty,
   if (!errors.empty()) throw Problem(errors);
 }
 
+nlohmann::json json_body(const HttpRequest& request) { return parse_body(request, false); }
+
 void expect_no_fields(const HttpRequest& request) {
   read_body(request, true, [](sim::JsonReader&) {});
 }
@@ -53,6 +54,13 @@ std::string source_of(const HttpRequest& request) {
   std::string source = request.header("x-stagger-client").substr(0, 64);
   std::erase_if(source, [](unsigned char c) { return std::isprint(c) == 0; });
   return source.empty() ? "http" : source;
+}
+
+std::optional<std::uint64_t> whole_number(const std::string& text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
 }
 
 HttpResponse json_response(const Json& body, int status) {

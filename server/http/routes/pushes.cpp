@@ -1,24 +1,15 @@
-#include <charconv>
-#include <limits>
+#include <memory>
 
+#include "server/http/idempotency.h"
 #include "server/http/problem.h"
 #include "server/http/routes/body.h"
+#include "server/http/routes/query.h"
 #include "server/http/routes/routes.h"
 #include "server/json/push_json.h"
 #include "server/json/robot_json.h"
 
 namespace stagger::server {
 namespace {
-
-constexpr std::uint64_t max_limit = 1000;
-constexpr std::uint64_t default_limit = 100;
-
-std::optional<std::uint64_t> whole_number(const std::string& text) {
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 std::uint64_t push_id(const HttpRequest& request) {
   const std::string& text = request.parameters.at("id");
@@ -31,7 +22,7 @@ Json resource(const sim::PushRecord& record) {
   return push_record_json(record, sim::Simulation::tick_s);
 }
 
-HttpResponse create(const HttpRequest& request, Services& services) {
+HttpResponse create_push(const HttpRequest& request, Services& services) {
   sim::PushSpec push;
   const auto robot = services.robots.find(services.session.state().robot);
   read_body(request, false, [&](sim::JsonReader& reader) {
@@ -45,34 +36,10 @@ HttpResponse create(const HttpRequest& request, Services& services) {
   return response;
 }
 
-struct Page {
-  std::uint64_t limit = default_limit;
-  std::uint64_t before = std::numeric_limits<std::uint64_t>::max();
-};
-
-Page read_page(const HttpRequest& request) {
-  Page page;
-  sim::JsonErrors errors;
-  for (const auto& [name, text] : request.query) {
-    const auto value = whole_number(text);
-    if (name == "limit") {
-      if (!value || *value < 1 || *value > max_limit) {
-        errors.add("/limit", "is \"" + text + "\"; allowed: 1 to " + std::to_string(max_limit));
-      }
-      page.limit = value.value_or(default_limit);
-    } else if (name == "cursor") {
-      if (!value) errors.add("/cursor", "is \"" + text + "\"; take it from next_cursor");
-      page.before = value.value_or(0);
-    } else {
-      errors.add("/" + name, "is unknown; known: limit, cursor");
-    }
-  }
-  if (!errors.empty()) throw Problem(errors);
-  return page;
-}
-
-HttpResponse list(const HttpRequest& request, Services& services) {
-  const Page page = read_page(request);
+HttpResponse list_pushes(const HttpRequest& request, Services& services) {
+  QueryReader query(request);
+  const PageQuery page = read_page(query);
+  query.finish();
   // One more than asked for tells whether there is another page.
   auto records = services.session.pushes(page.before, page.limit + 1);
   Json next = nullptr;
@@ -88,10 +55,12 @@ HttpResponse list(const HttpRequest& request, Services& services) {
 }  // namespace
 
 void add_push_routes(Router& router, Services& services) {
-  router.add("POST", "/api/v1/pushes",
-             [&](const HttpRequest& request) { return create(request, services); });
+  const auto answers = std::make_shared<Idempotency>();
+  router.add("POST", "/api/v1/pushes", [&services, answers](const HttpRequest& request) {
+    return answers->run(request, [&] { return create_push(request, services); });
+  });
   router.add("GET", "/api/v1/pushes",
-             [&](const HttpRequest& request) { return list(request, services); });
+             [&](const HttpRequest& request) { return list_pushes(request, services); });
   router.add("GET", "/api/v1/pushes/{id}", [&](const HttpRequest& request) {
     return json_response(resource(services.session.find_push(push_id(request))));
   });

@@ -2,6 +2,7 @@
 #include "server/http/routes/body.h"
 #include "server/http/routes/routes.h"
 #include "server/json/gait_json.h"
+#include "server/json/parameters_json.h"
 #include "server/json/senses_json.h"
 #include "server/json/terrain_json.h"
 #include "sim/state_hash.h"
@@ -29,6 +30,8 @@ Json state_json(const SessionState& state, const StreamCounters& stream) {
                {"strategies", strategies_json(state.strategies)},
                {"step_count", state.step_count},
                {"worst_dcm_error_m", state.worst_dcm_error_m},
+               {"parameters", parameter_values_json(*state.parameters)},
+               {"speed", state.speed ? Json(*state.speed) : Json("max")},
                {"real_time_factor", state.real_time_factor},
                {"late_ticks", state.late_ticks},
                {"worst_lateness_ms", state.worst_lateness_ms},
@@ -40,6 +43,20 @@ Json state_json(const SessionState& state, const StreamCounters& stream) {
                {"error", text_or_null(state.error)},
                {"version", STAGGER_VERSION}});
   return json;
+}
+
+HttpResponse set_speed(const HttpRequest& request, Services& services) {
+  std::optional<double> factor;
+  read_body(request, false, [&factor](sim::JsonReader& reader) {
+    const nlohmann::json* value = reader.value("factor");
+    if (value != nullptr && *value == "max") return;
+    const auto range = sim::Range::between(LiveSession::slowest, LiveSession::fastest,
+                                           R"(times real time, or "max")");
+    factor = reader.number("factor", range);
+  });
+  Json answer = effect_json(services.session.set_speed(factor, source_of(request)));
+  answer["speed"] = factor ? Json(*factor) : Json("max");
+  return json_response(answer);
 }
 
 HttpResponse reset(const HttpRequest& request, Services& services) {
@@ -56,6 +73,10 @@ HttpResponse reset(const HttpRequest& request, Services& services) {
     reader.optional_object(
         "terrain", [&](sim::JsonReader& terrain) { config.terrain = read_terrain(terrain); });
     refuse_terrain_of_lipm(reader, config.plant, config.terrain);
+    // Another robot, or another plant, has parameters of its own.
+    const bool same = robot == present.robot && config.plant == present.plant;
+    config.parameters =
+        read_parameters(reader).value_or(same ? *present.parameters : sim::ParameterValues());
   });
   config.robot = services.robots.find(robot);
   if (config.robot == nullptr) {
@@ -63,6 +84,9 @@ HttpResponse reset(const HttpRequest& request, Services& services) {
     errors.add("/robot", services.robots.unknown(robot));
     throw Problem(errors);
   }
+  sim::JsonErrors errors;
+  add_faults(errors, "/parameters", sim::check_parameters(config, config.parameters));
+  if (!errors.empty()) throw Problem(errors);
   Json answer = effect_json(services.session.reset(config, source_of(request)));
   answer["session_id"] = services.session.state().session_id;
   return json_response(answer);
@@ -91,6 +115,8 @@ void add_simulation_routes(Router& router, Services& services) {
     return json_response(
         effect_json(services.session.step(static_cast<std::uint64_t>(ticks), source_of(request))));
   });
+  router.add("POST", base + "/speed",
+             [&](const HttpRequest& request) { return set_speed(request, services); });
   router.add("POST", base + "/reset",
              [&](const HttpRequest& request) { return reset(request, services); });
 }

@@ -8,12 +8,12 @@
 namespace stagger::sim {
 namespace {
 
-constexpr std::size_t step_count = 6;
-constexpr double step_length = 0.5;
+constexpr std::size_t steps_tracked = 6;
+constexpr double tracked_step_length = 0.5;
 constexpr double still_s = 1.0;
 constexpr double after_s = 1.5;
 
-struct Run {
+struct TrackedWalk {
   Vec2 com_squares = Vec2::Zero();
   Vec2 dcm_squares = Vec2::Zero();
   Vec2 outside = Vec2::Zero();
@@ -21,7 +21,7 @@ struct Run {
   Trace trace;
 };
 
-Run track(std::uint64_t seed) {
+TrackedWalk track(std::uint64_t seed) {
   engine::Parameters p = paper_parameters(paper_noise);
   p.t_ss = 1.0;
   p.t_ds = 0.0;
@@ -30,13 +30,13 @@ Run track(std::uint64_t seed) {
   ClosedLoop loop(p, paper_plant(paper_noise, seed));
   std::vector<engine::Footstep> steps;
   Side side = Side::right;
-  for (std::size_t i = 1; i <= step_count; ++i) {
+  for (std::size_t i = 1; i <= steps_tracked; ++i) {
     const double y = 0.5 * p.stance_width * engine::lateral_sign(side);
-    steps.push_back({Vec2(step_length * static_cast<double>(i), y), 0.0, side});
+    steps.push_back({Vec2(tracked_step_length * static_cast<double>(i), y), 0.0, side});
     side = engine::other(side);
   }
 
-  Run run;
+  TrackedWalk run;
   const auto tick = [&] {
     const engine::WalkingTargets& t = loop.tick();
     const TraceSample& s = loop.sample();
@@ -60,7 +60,7 @@ Run track(std::uint64_t seed) {
   if (loop.engine().follow(steps) != engine::WalkingEngine::StepListError::none) {
     throw std::logic_error("the six steps of the paper are out of reach");
   }
-  const double latest = loop.time() + 2.0 * p.t_init + step_count * (p.t_ss + p.t_ds) + 1.0;
+  const double latest = loop.time() + 2.0 * p.t_init + steps_tracked * (p.t_ss + p.t_ds) + 1.0;
   while (tick() != WalkingState::idle && loop.time() < latest) {
   }
   const double stood = loop.time();
@@ -73,10 +73,10 @@ Run track(std::uint64_t seed) {
 TrackingResult run_tracking(int seeds) {
   std::vector<std::uint64_t> all;
   for (int seed = 1; seed <= seeds; ++seed) all.push_back(static_cast<std::uint64_t>(seed));
-  std::vector<Run> runs = parallel_map(all, track);
+  std::vector<TrackedWalk> runs = parallel_map(all, track);
 
-  Run sum;
-  for (const Run& run : runs) {
+  TrackedWalk sum;
+  for (const TrackedWalk& run : runs) {
     sum.com_squares += run.com_squares;
     sum.dcm_squares += run.dcm_squares;
     sum.outside += run.outside;

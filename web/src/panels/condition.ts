@@ -17,6 +17,8 @@ export class ConditionBar {
   private readonly text = byId('condition-text', HTMLElement);
   private readonly retry = byId('retry-now', HTMLButtonElement);
   private readonly robot = byId('bar-robot', HTMLElement);
+  private readonly terrain = byId('bar-terrain', HTMLElement);
+  private readonly verdict = byId('verdict', HTMLElement);
   private readonly walking = byId('bar-walking', HTMLElement);
   private readonly time = byId('bar-time', HTMLElement);
   private readonly speed = byId('bar-speed', HTMLElement);
@@ -33,7 +35,7 @@ export class ConditionBar {
     store.on('condition', () => announce(this.sentence()));
   }
 
-  update(): void {
+  update(topView: Readonly<Record<string, unknown>>): void {
     const { store } = this;
     const { condition, hello, simulation, frame } = store;
     if (this.condition.dataset['condition'] !== condition) {
@@ -45,6 +47,8 @@ export class ConditionBar {
     this.retry.hidden = condition !== 'lost';
     const plant = hello?.plant === 'lipm' ? 'pendulum' : 'full body';
     setText(this.robot, hello === null ? '–' : `${hello.robot}, ${plant}`);
+    byId('bar-ground', HTMLElement).hidden = store.terrain.kind === 'flat';
+    setText(this.terrain, hello === null ? '–' : store.terrain.title);
     setText(
       this.walking,
       store.walkingState === '' ? '–' : store.walkingState.replaceAll('_', ' '),
@@ -52,10 +56,26 @@ export class ConditionBar {
     setText(this.time, frame === null ? '–' : `${formatNumber(frame.t, 2)} s`);
     const speed = store.connection.kind === 'open' ? simulation?.realTimeFactor : undefined;
     setText(this.speed, speed === undefined ? '–' : `${formatNumber(speed, 2)} ×`);
+    this.showVerdict(topView['capturable']);
     this.banner.hidden = condition !== 'fallen';
     setText(this.reason, simulation?.fallReason ?? '');
     this.stale.hidden = condition !== 'lost' || frame === null;
     setText(this.stale, frame === null ? '' : `As it was at ${formatNumber(frame.t, 2)} s`);
+  }
+
+  /** What the regions of the view from above say, in words. */
+  private showVerdict(capturable: unknown): void {
+    const verdict = capturable === true ? 'yes' : capturable === false ? 'no' : 'none';
+    if (this.verdict.dataset['verdict'] === verdict) return;
+    this.verdict.dataset['verdict'] = verdict;
+    setText(
+      this.verdict,
+      verdict === 'yes'
+        ? 'The next step can save it'
+        : verdict === 'no'
+          ? 'No step reaches far enough'
+          : '',
+    );
   }
 
   private sentence(): string {

@@ -1,11 +1,21 @@
 // Pause, resume, step, reset, strategies, and how the simulation is doing.
 
-import type { Api } from '../api';
-import { linesOf } from '../api';
+import type { Api, ResetChoice } from '../api';
+import { attempt } from '../attempt';
 import { byId, fillSelect, formatNumber, numberIn, setText, showLines } from '../dom';
+import type { Keys } from '../keys';
 import type { Store } from '../store';
 
 const pollMs = 1000;
+
+/** The number that each kind of ground is told by; docs/trial.md has the others. */
+const terrainFields: Readonly<
+  Record<string, { name: string; title: string; unit: string; value: number } | undefined>
+> = {
+  slope: { name: 'angle_deg', title: 'Angle', unit: '°', value: 5 },
+  uneven: { name: 'height_m', title: 'Height', unit: 'm', value: 0.02 },
+  platform: { name: 'vx', title: 'Velocity', unit: 'm/s', value: 0.1 },
+};
 
 /** Rows of a list of facts, made once and then only rewritten. */
 export class Facts {
@@ -37,6 +47,8 @@ export class SimulationPanel {
   private readonly robot = byId('robot', HTMLSelectElement);
   private readonly plant = byId('plant', HTMLSelectElement);
   private readonly seed = byId('seed', HTMLInputElement);
+  private readonly terrain = byId('terrain', HTMLSelectElement);
+  private readonly terrainValue = byId('terrain-value', HTMLInputElement);
   private readonly strategies = byId('strategies', HTMLElement);
   private readonly transportError = byId('transport-error', HTMLElement);
   private readonly error = byId('simulation-error', HTMLElement);
@@ -46,6 +58,8 @@ export class SimulationPanel {
     ['Steps'],
     ['Late ticks'],
     ['Frames dropped'],
+    ['Shown behind'],
+    ['Watchers'],
     ['Seed'],
     ['Version'],
     ['Greatest DCM error', true],
@@ -55,29 +69,27 @@ export class SimulationPanel {
   private reading = false;
   /** Counts commands: a state that was asked for before one tells of the time before it. */
   private commands = 0;
+  /** Strategies whose switch the server has not answered yet: it stays as the user has put it. */
+  private readonly switching = new Set<string>();
 
   constructor(
     private readonly store: Store,
     private readonly api: Api,
+    keys: Keys,
   ) {
     const { transportError } = this;
-    this.pause.addEventListener('click', () => {
-      const running = this.store.running !== false;
-      void this.command(transportError, async () => {
-        await (running ? this.api.pause() : this.api.resume());
-        this.store.setRunning(!running);
-      });
-    });
-    this.step.addEventListener('click', () => {
-      const ticks = numberIn(byId('step-ticks', HTMLInputElement));
-      void this.command(transportError, () => this.api.step(ticks));
-    });
+    this.pause.addEventListener('click', () => this.togglePause());
+    this.step.addEventListener('click', () => this.advance());
+    const reset = (): void => void this.command(transportError, () => this.api.reset({}));
     for (const id of ['reset', 'fall-reset']) {
-      byId(id, HTMLButtonElement).addEventListener(
-        'click',
-        () => void this.command(transportError, () => this.api.reset({})),
-      );
+      byId(id, HTMLButtonElement).addEventListener('click', reset);
     }
+    const add = (key: string, text: string, run: () => void): void =>
+      keys.add({ key, group: 'Simulation', text, run });
+    add(' ', 'Pause and resume', () => this.togglePause());
+    add('.', 'Step, when paused', () => this.advance());
+    add('r', 'Reset', reset);
+    this.terrain.addEventListener('change', () => this.showTerrain(true));
     byId('reset-form', HTMLFormElement).addEventListener('submit', (event) => {
       event.preventDefault();
       const seed = numberIn(this.seed);
@@ -86,6 +98,7 @@ export class SimulationPanel {
           robot: this.robot.value,
           plant: this.plant.value,
           ...(Number.isFinite(seed) ? { seed } : {}),
+          ...this.chosenTerrain(),
         }),
       );
     });
@@ -128,14 +141,45 @@ export class SimulationPanel {
     }
   }
 
+  private togglePause(): void {
+    const running = this.store.running !== false;
+    void this.command(this.transportError, async () => {
+      await (running ? this.api.pause() : this.api.resume());
+      this.store.setRunning(!running);
+    });
+  }
+
+  private advance(): void {
+    if (this.step.disabled) return;
+    const ticks = numberIn(byId('step-ticks', HTMLInputElement));
+    void this.command(this.transportError, () => this.api.step(ticks));
+  }
+
+  /** The ground of the form; nothing when it is the present one, with all that it has. */
+  private chosenTerrain(): Pick<ResetChoice, 'terrain'> {
+    const { json } = this.store.terrain;
+    const kind = this.terrain.value;
+    const field = terrainFields[kind];
+    const value = numberIn(this.terrainValue);
+    if (json['kind'] === kind && (field === undefined || json[field.name] === value)) return {};
+    return { terrain: { kind, ...(field === undefined ? {} : { [field.name]: value }) } };
+  }
+
+  private showTerrain(chosen: boolean): void {
+    const field = terrainFields[this.terrain.value];
+    byId('terrain-field', HTMLElement).hidden = field === undefined;
+    if (field === undefined) return;
+    setText(byId('terrain-label', HTMLElement), field.title);
+    setText(byId('terrain-unit', HTMLElement), field.unit);
+    const present = this.store.terrain.json[field.name];
+    const value = chosen || typeof present !== 'number' ? field.value : present;
+    this.terrainValue.value = String(value);
+  }
+
   private async command(where: HTMLElement, send: () => Promise<unknown>): Promise<void> {
-    try {
-      await send();
-      showLines(this.transportError, []);
-      showLines(this.error, []);
-    } catch (error) {
-      showLines(where, linesOf(error));
-    }
+    showLines(this.transportError, []);
+    showLines(this.error, []);
+    await attempt(where, send);
     this.commands += 1;
     void this.read();
   }
@@ -162,6 +206,9 @@ export class SimulationPanel {
     if (hello === null) return;
     this.robot.value = hello.robot;
     this.plant.value = hello.plant;
+    this.seed.value = String(hello.seed);
+    this.terrain.value = this.store.terrain.kind;
+    this.showTerrain(false);
   }
 
   private show(): void {
@@ -176,6 +223,8 @@ export class SimulationPanel {
     this.facts.set('Late ticks', `${simulation.lateTicks}`);
     this.facts.set('Greatest DCM error', `${formatNumber(simulation.worstDcmErrorM, 3)} m`);
     this.facts.set('Frames dropped', `${this.store.framesDropped}`);
+    this.facts.set('Shown behind', `${formatNumber(this.store.behindMs, 0)} ms`);
+    this.facts.set('Watchers', `${simulation.clients}`);
     this.facts.set('Seed', `${simulation.seed}`);
     this.facts.set('Version', simulation.version);
     this.facts.set('State hash', simulation.stateHash);
@@ -193,8 +242,9 @@ export class SimulationPanel {
       this.strategies.replaceChildren(...names.map((name) => this.strategySwitch(name)));
     }
     for (const input of this.strategies.querySelectorAll('input')) {
-      const on = strategies[input.dataset['strategy'] ?? ''];
-      if (on !== undefined) input.checked = on;
+      const name = input.dataset['strategy'] ?? '';
+      const on = strategies[name];
+      if (on !== undefined && !this.switching.has(name)) input.checked = on;
     }
   }
 
@@ -203,13 +253,17 @@ export class SimulationPanel {
     label.className = 'check';
     const input = document.createElement('input');
     input.type = 'checkbox';
+    input.setAttribute('role', 'switch');
     input.id = `strategy-${name}`;
     input.dataset['strategy'] = name;
     label.htmlFor = input.id;
     label.append(input, name);
     input.addEventListener('change', () => {
       const on = input.checked;
-      void this.command(this.error, () => this.api.setStrategies({ [name]: on }));
+      this.switching.add(name);
+      void this.command(byId('strategies-error', HTMLElement), () =>
+        this.api.setStrategies({ [name]: on }),
+      ).then(() => this.switching.delete(name));
     });
     return label;
   }

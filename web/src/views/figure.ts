@@ -1,6 +1,8 @@
 // The robot in the 3D view: its URDF on the full-body plant, a plain pendulum on the LIPM.
 
 import * as THREE from 'three';
+import { ColladaLoader } from 'three/examples/jsm/loaders/ColladaLoader.js';
+import { STLLoader } from 'three/examples/jsm/loaders/STLLoader.js';
 import type { URDFRobot } from 'urdf-loader';
 import URDFLoader from 'urdf-loader';
 import type { Api, RobotInfo } from '../api';
@@ -216,6 +218,20 @@ export async function loadRobotFigure(
     const loader = new URDFLoader(manager);
     loader.workingPath = files;
     loader.packages = () => files.replace(/\/$/, '');
+    // As the loader's own, with the key.
+    loader.loadMeshCb = (path, loading, material, done) => {
+      const fail = (error: unknown): void =>
+        done(new THREE.Object3D(), error instanceof Error ? error : new Error(String(error)));
+      if (/\.stl$/i.test(path)) {
+        const stl = new STLLoader(loading).setRequestHeader(api.headers());
+        stl.load(path, (shape) => done(new THREE.Mesh(shape, material)), undefined, fail);
+      } else if (/\.dae$/i.test(path)) {
+        const collada = new ColladaLoader(loading).setRequestHeader(api.headers());
+        collada.load(path, (file) => done(file?.scene ?? new THREE.Object3D()), undefined, fail);
+      } else {
+        fail(new Error(`no loader for ${path}`));
+      }
+    };
     loader.parseVisual = !collision;
     loader.parseCollision = collision;
     return loader.parse(urdf);

@@ -8,7 +8,7 @@ export class GroundCanvas {
   constructor(
     private readonly context: CanvasRenderingContext2D,
     private readonly view: GroundTransform,
-    private readonly theme: Theme,
+    readonly theme: Theme,
   ) {}
 
   private path(points: readonly Point[]): void {
@@ -64,6 +64,34 @@ export class GroundCanvas {
     c.textAlign = 'center';
     c.textBaseline = 'middle';
     c.fillText(name, x, y);
+  }
+
+  /** A way on the ground, not closed. */
+  way(points: readonly Point[], colour: string, width: number, dash: number[] = []): void {
+    if (points.length < 2) return;
+    const c = this.context;
+    this.path(points);
+    c.strokeStyle = colour;
+    c.lineWidth = width;
+    c.setLineDash(dash);
+    c.stroke();
+    c.setLineDash([]);
+  }
+
+  /** Words at a place of the ground, on a little of the background so that lines do not cross them. */
+  words(text: string, at: Point, colour: string): void {
+    const c = this.context;
+    const { x, y } = this.view.toCanvas(at);
+    c.font = `600 11.5px ${this.theme.font}`;
+    c.textAlign = 'center';
+    c.textBaseline = 'middle';
+    const width = c.measureText(text).width;
+    c.globalAlpha = 0.8;
+    c.fillStyle = this.theme.surface;
+    c.fillRect(x - width / 2 - 4, y - 8, width + 8, 16);
+    c.globalAlpha = 1;
+    c.fillStyle = colour;
+    c.fillText(text, x, y);
   }
 
   link(from: Point, to: Point): void {

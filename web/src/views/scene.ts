@@ -7,22 +7,30 @@ import { linesOf } from '../api';
 import { byId, setText } from '../dom';
 import type { Store } from '../store';
 import type { Theme } from '../theme';
+import { Aim } from './aim';
+import type { AimListener, AimMode } from './aim';
 import { loadRobotFigure, makePendulum } from './figure';
 import type { Figure } from './figure';
 import { Ground } from './ground';
 import { GroundMarks } from './ground_marks';
+import type { Layer } from './ground_marks';
 import { PushArrow } from './push_arrow';
 import { lag } from './transform';
 
-export type Preset = 'behind' | 'side' | 'front';
+export type Preset = 'behind' | 'side' | 'front' | 'top';
 
 /** Azimuth from the robot's front, counted to its left, and elevation of each preset [deg]. */
 const presets: Readonly<Record<Preset, readonly [number, number]>> = {
   behind: [-145, 16],
   side: [-90, 8],
   front: [-35, 14],
+  top: [180, 88],
 };
 const followTau = 0.35;
+/** The camera looks at this share of the CoM's height. */
+const eyeShare = 0.83;
+const slowPeriodMs = 90;
+const quickPeriodMs = 45;
 
 export class SceneView {
   private readonly renderer: THREE.WebGLRenderer;
@@ -34,22 +42,31 @@ export class SceneView {
   private readonly ground: Ground;
   private readonly marks: GroundMarks;
   private readonly arrow: PushArrow;
+  private readonly aim: Aim;
+  private readonly aimLabel = byId('aim-label', HTMLElement);
   private readonly note = byId('scene-note', HTMLElement);
   private figure: Figure | null = null;
   private wanted = '';
   private dirty = true;
   private drawnVersion = -1;
   private lastTime = 0;
+  private lastDrawn = 0;
   private settled = false;
   private framesDrawn = 0;
   private drawnTick: number | null = null;
+  /** Milliseconds between drawings, smoothed; a slow machine gets a coarser picture. */
+  private period = 16;
+  private quality = 1;
   follow = true;
+  /** Whether a drag on the robot pushes: what is replayed is not there to be pushed. */
+  aiming = true;
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly store: Store,
     private readonly api: Api,
     private theme: Theme,
+    listener: AimListener,
   ) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
     this.renderer.shadowMap.enabled = true;
@@ -69,7 +86,16 @@ export class SceneView {
     this.marks = new GroundMarks(theme);
     this.arrow = new PushArrow(theme);
     this.scene.add(this.sky, this.sun, this.sun.target, this.ground.object);
-    this.scene.add(this.marks.object, this.arrow.object);
+    this.aim = new Aim(
+      canvas,
+      this.camera,
+      store,
+      () => (this.aiming ? (this.figure?.object ?? null) : null),
+      (held) => (this.controls.enabled = !held),
+      listener,
+      () => (this.dirty = true),
+    );
+    this.scene.add(this.marks.object, this.arrow.object, this.aim.object);
     this.setTheme(theme);
     this.preset('behind');
 
@@ -90,6 +116,7 @@ export class SceneView {
     this.marks.setTheme(theme);
     this.figure?.setTheme(theme);
     this.arrow.setTheme(theme);
+    this.aim.setTheme(theme);
     this.dirty = true;
   }
 
@@ -101,7 +128,7 @@ export class SceneView {
     const elevation = (elevationDeg * Math.PI) / 180;
     const distance = 3.3 * unit;
     const { target } = this.controls;
-    target.z = 0.83 * unit;
+    target.z = this.store.terrain.height(target.x, target.y) + eyeShare * unit;
     this.camera.position.set(
       target.x + distance * Math.cos(elevation) * Math.cos(azimuth),
       target.y + distance * Math.cos(elevation) * Math.sin(azimuth),
@@ -111,13 +138,27 @@ export class SceneView {
     this.dirty = true;
   }
 
+  setMode(mode: AimMode): void {
+    this.aim.mode = mode;
+  }
+
+  clearAim(): void {
+    this.aim.clear();
+  }
+
+  show(layer: Layer, on: boolean): void {
+    this.marks.show(layer, on);
+    this.dirty = true;
+  }
+
   update(nowMs: number): void {
-    const dt = Math.min(0.1, Math.max(0, (nowMs - this.lastTime) / 1000));
+    const dt = Math.min(1, Math.max(0, (nowMs - this.lastTime) / 1000));
     this.lastTime = nowMs;
     const moving = this.followRobot(dt);
     if (!moving && !this.dirty && this.drawnVersion === this.store.version) return;
     this.dirty = false;
     this.drawnVersion = this.store.version;
+    this.adapt(nowMs);
     this.fit();
     if (this.store.frame !== null) {
       this.figure?.pose(this.store);
@@ -126,6 +167,14 @@ export class SceneView {
     this.marks.object.visible = this.store.frame !== null;
     if (this.figure !== null) this.figure.object.visible = this.store.frame !== null;
     this.arrow.update(this.store, this.camera, this.canvas.clientWidth, this.canvas.clientHeight);
+    this.ground.update(
+      this.store.terrain,
+      this.store.frame?.t ?? 0,
+      this.controls.target.x,
+      this.controls.target.y,
+    );
+    this.aim.update();
+    this.placeAimLabel();
     this.renderer.render(this.scene, this.camera);
     this.framesDrawn += 1;
     this.drawnTick = this.store.frame?.tick ?? null;
@@ -138,12 +187,26 @@ export class SceneView {
       figure: this.figure?.state() ?? null,
       marks: this.marks.state(),
       push_arrow: this.arrow.state(),
+      ground: this.ground.state(),
+      quality: this.quality,
+      /** Where the centre of mass is on the canvas [px]. */
+      com_px: this.comOnCanvas(),
       camera: {
         position: this.camera.position.toArray(),
         target: this.controls.target.toArray(),
         follow: this.follow,
       },
     };
+  }
+
+  private comOnCanvas(): [number, number] | null {
+    const [x, y, z] = this.store.values('com');
+    if (x === undefined || y === undefined || z === undefined) return null;
+    // The camera may have been moved since the last drawing.
+    this.camera.updateMatrixWorld();
+    const at = new THREE.Vector3(x, y, z).project(this.camera);
+    const { clientWidth, clientHeight } = this.canvas;
+    return [((at.x + 1) / 2) * clientWidth, ((1 - at.y) / 2) * clientHeight];
   }
 
   /** The figure that the session needs; an answer that comes too late is thrown away. */
@@ -198,23 +261,49 @@ export class SceneView {
     const { target } = this.controls;
     const dx = (this.settled ? lag(target.x, x, dt, followTau) : x) - target.x;
     const dy = (this.settled ? lag(target.y, y, dt, followTau) : y) - target.y;
+    const level = this.store.terrain.height(x, y) + eyeShare * (this.store.robot?.comHeightM ?? 1);
+    const dz = (this.settled ? lag(target.z, level, dt, followTau) : level) - target.z;
     this.settled = true;
-    if (Math.hypot(dx, dy) < 1e-5) return false;
+    if (Math.hypot(dx, dy, dz) < 1e-5) return false;
     target.x += dx;
     target.y += dy;
+    target.z += dz;
     this.camera.position.x += dx;
     this.camera.position.y += dy;
+    this.camera.position.z += dz;
     this.controls.update();
     this.sun.position.set(target.x - 2, target.y - 3.2, 4.6);
     this.sun.target.position.set(target.x, target.y, 0);
-    this.ground.follow(target.x, target.y);
     return true;
+  }
+
+  private placeAimLabel(): void {
+    const { label } = this.aim;
+    this.aimLabel.hidden = label === null;
+    if (label === null) return;
+    const at = label.at.project(this.camera);
+    const left = ((at.x + 1) / 2) * this.canvas.clientWidth;
+    const top = ((1 - at.y) / 2) * this.canvas.clientHeight;
+    setText(this.aimLabel, label.text);
+    this.aimLabel.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
+  }
+
+  /** Draws with fewer pixels where drawing takes so long that what is shown would fall behind. */
+  private adapt(nowMs: number): void {
+    const since = nowMs - this.lastDrawn;
+    this.lastDrawn = nowMs;
+    // After a pause nothing was drawn because there was nothing to draw.
+    if (since <= 0 || this.store.running !== true) return;
+    this.period += 0.1 * (Math.min(since, 500) - this.period);
+    const wanted = this.period > slowPeriodMs ? 0.5 : this.period < quickPeriodMs ? 1 : this.quality;
+    if (wanted === this.quality) return;
+    this.quality = wanted;
   }
 
   private fit(): void {
     const { clientWidth, clientHeight } = this.canvas;
     if (clientWidth === 0 || clientHeight === 0) return;
-    const ratio = Math.min(2, window.devicePixelRatio || 1);
+    const ratio = this.quality * Math.min(2, window.devicePixelRatio || 1);
     const size = this.renderer.getSize(new THREE.Vector2());
     if (
       size.x === clientWidth &&
