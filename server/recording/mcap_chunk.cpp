@@ -35,16 +35,17 @@ McapChunk McapChunkBuilder::take() {
   chunk.plain_size = plain_.size();
   chunk.plain_crc = crc_over(0, plain_);
   chunk.compression = "zstd";
-  chunk.bytes.resize(ZSTD_compressBound(plain_.size()));
-  const std::size_t size = ZSTD_compress(chunk.bytes.data(), chunk.bytes.size(), plain_.data(),
+  packed_.resize(ZSTD_compressBound(plain_.size()));
+  const std::size_t size = ZSTD_compress(packed_.data(), packed_.size(), plain_.data(),
                                          plain_.size(), zstd_level);
   if (ZSTD_isError(size) != 0) {
     chunk.compression.clear();
     chunk.bytes = plain_;
   } else {
-    chunk.bytes.resize(size);
-    chunk.bytes.shrink_to_fit();  // the flight recorder holds many of them
+    chunk.bytes.assign(packed_, 0, size);
   }
+  // The flight recorder holds many of them.
+  for (auto& [channel, places] : chunk.places) places.shrink_to_fit();
   plain_.clear();
   return chunk;
 }

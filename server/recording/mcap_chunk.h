@@ -18,6 +18,7 @@ class McapChunkBuilder {
 
  private:
   std::string plain_;
+  std::string packed_;  ///< kept: a large piece taken and given back for each chunk leaves holes
   McapChunk chunk_;
   std::uint32_t sequence_ = 0;
 };

@@ -23,7 +23,17 @@ constexpr auto idle_period = 50ms;
 constexpr const char* turn_file = "recordings.lock";
 constexpr auto folder_patience = 5s;  // then it is told who is waited for
 constexpr double fall_after_s = 2.0;
-constexpr double warn_share = 0.9;  // of the quota
+constexpr double warn_share = 0.9;             // of the quota
+constexpr std::uint64_t file_bytes = 1 << 16;  // what a file takes beside its chunks, more or less
+
+/// Of a chunk in a file, its index and its place in the summary with it; a little more than it will
+/// be.
+std::uint64_t bytes_of(const RecorderChunk& chunk) {
+  std::uint64_t bytes = chunk.data.bytes.size() + 1024;
+  for (const auto& [channel, places] : chunk.data.places) bytes += 16 * places.size();
+  return bytes;
+}
+
 CommandError conflict(const std::string& why) { return {CommandError::Kind::conflict, why}; }
 
 std::string in_mb(std::uint64_t bytes) { return std::to_string(bytes / 1'000'000) + " MB"; }
@@ -60,7 +70,7 @@ Recorder::Recorder(const RecorderOptions& options, const Presence& presence)
       catalogue_(options.folder / "recordings.sqlite") {
   repair_recordings(folder_, presence_, catalogue_);
   turn_.reset();
-  keep_quota();
+  keep_quota(0);
   thread_ = std::thread([this] { run(); });
 }
 
@@ -183,11 +193,11 @@ void Recorder::close_chunk() {
     flight_size_ -= flight_.front()->data.bytes.size();
     flight_.pop_front();
   }
+  keep_quota(bytes_of(*chunk));
   for (Active& active : active_) {
     if (active.file != nullptr) write(active, *chunk);
   }
   end_those([](const Active& active) { return !active.info.error.empty(); });
-  keep_quota();
 }
 
 void Recorder::write(Active& active, const RecorderChunk& chunk) {
@@ -212,14 +222,41 @@ void Recorder::put_first(const Active& active, const std::function<void()>& begi
   }
 }
 
-void Recorder::begin_file(Active& active, std::uint64_t from_ns, bool this_world_only) {
-  active.file = std::make_unique<RecordingFile>(path_of(active.info.id), active.info);
-  active.info.state = RecordingState::recording;
+/// What the flight recorder holds from that time on, as far as the quota has room for it: of what
+/// is too much, the newest. Throws CommandError when there is none.
+std::vector<RecorderChunkPtr> Recorder::past(std::uint64_t from_ns, bool this_world_only) {
+  std::deque<RecorderChunkPtr> chunks;
+  std::uint64_t bytes = file_bytes;
   for (const RecorderChunkPtr& chunk : flight_) {
     if (chunk->data.end_time < from_ns) continue;
     if (this_world_only && chunk->world != maker_.world()) continue;
-    write(active, *chunk);
+    chunks.push_back(chunk);
+    bytes += bytes_of(*chunk);
   }
+  const auto cut = [&](std::uint64_t room) {
+    for (; bytes > room && !chunks.empty(); chunks.pop_front()) bytes -= bytes_of(*chunks.front());
+  };
+  // One fall must not drive out all that was recorded before.
+  const std::size_t wanted = chunks.size();
+  cut(options_.quota_bytes / 2);
+  if (!make_room(bytes)) {
+    const std::uint64_t used = catalogue_.bytes();
+    cut(options_.quota_bytes - std::min(used, options_.quota_bytes));
+    if (used + bytes > options_.quota_bytes) {
+      throw conflict("the recordings take all of their quota and none may be removed");
+    }
+  }
+  if (chunks.size() < wanted) {
+    spdlog::warn("recordings: their quota has room for {} of the past alone", in_mb(bytes));
+  }
+  return {chunks.begin(), chunks.end()};
+}
+
+void Recorder::begin_file(Active& active, std::uint64_t from_ns, bool this_world_only) {
+  const auto chunks = past(from_ns, this_world_only);
+  active.file = std::make_unique<RecordingFile>(path_of(active.info.id), active.info);
+  active.info.state = RecordingState::recording;
+  for (const RecorderChunkPtr& chunk : chunks) write(active, *chunk);
 }
 
 void Recorder::end(Active& active, const std::string& error) {
@@ -284,33 +321,43 @@ void Recorder::save_fall() {
   }
 }
 
-void Recorder::keep_quota() {
-  std::uint64_t used = catalogue_.bytes();
-  while (used > options_.quota_bytes) {
+/// Removes the oldest that may go until there is room for so much more; false when there is none of
+/// them left.
+bool Recorder::make_room(std::uint64_t bytes) {
+  for (;;) {
+    const std::uint64_t used = catalogue_.bytes();
+    if (used + bytes <= options_.quota_bytes) return true;
     const auto oldest = catalogue_.oldest_removable({});
-    if (!oldest) break;
+    if (!oldest) return false;
     // Another server that shares the folder may have been quicker, or a user may have protected it.
     if (catalogue_.remove_done(oldest->id, path_of(oldest->id))) {
-      spdlog::warn("recordings take {}, more than their quota of {}: {} has been removed",
-                   in_mb(used), in_mb(options_.quota_bytes), oldest->id);
+      spdlog::warn(
+          "recordings take {}, and there is no room for more within their quota of {}: {} has been "
+          "removed",
+          in_mb(used), in_mb(options_.quota_bytes), oldest->id);
       ++removed_;
     }
-    used = catalogue_.bytes();
   }
-  if (used > options_.quota_bytes && !active_.empty()) {
+}
+
+/// Before each file that is written takes so much more: where there is no room, recording ends.
+void Recorder::keep_quota(std::uint64_t bytes) {
+  const auto is_written = [](const Active& active) { return active.file != nullptr; };
+  const auto files =
+      static_cast<std::uint64_t>(std::count_if(active_.begin(), active_.end(), is_written));
+  if (!make_room(files * (bytes + file_bytes)) && files > 0) {
     for (Active& active : active_) {
-      if (active.file != nullptr) end(active, "the quota of the disk is used up");
+      if (is_written(active)) end(active, "the quota of the disk is used up");
     }
     std::erase_if(active_,
                   [](const Active& active) { return active.info.state == RecordingState::done; });
-    used = catalogue_.bytes();
   }
-  const std::string before = std::exchange(warning_, quota_warning(used));
+  const std::string before = std::exchange(warning_, quota_warning(catalogue_.bytes()));
   if (!warning_.empty() && before.empty()) spdlog::warn("recordings: {}", warning_);
 }
 
 std::string Recorder::quota_warning(std::uint64_t used) const {
-  if (used > options_.quota_bytes) {
+  if (used + file_bytes > options_.quota_bytes) {
     return "the quota is used up and nothing may be removed: nothing is recorded";
   }
   if (removed_ > 0) {
@@ -366,10 +413,6 @@ RecordingInfo Recorder::start(const RecordingRequest& request) {
   const std::lock_guard lock(work_mutex_);
   if (active_.size() >= max_active) {
     throw conflict("as many recordings as are possible at a time are active; stop one");
-  }
-  keep_quota();
-  if (catalogue_.bytes() > options_.quota_bytes) {
-    throw conflict("the recordings take all of their quota and none may be removed");
   }
   work_off_queue();
   close_chunk();

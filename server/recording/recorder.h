@@ -110,12 +110,14 @@ class Recorder final : public SessionListener {
   void close_chunk();
   void write(Active& active, const RecorderChunk& chunk);
   void put_first(const Active& active, const std::function<void()>& begin);
+  std::vector<RecorderChunkPtr> past(std::uint64_t from_ns, bool this_world_only);
   void begin_file(Active& active, std::uint64_t from_ns, bool this_world_only);
   void end(Active& active, const std::string& error = "");
   void end_those(const std::function<bool(const Active&)>& which);
   void trigger_push();
   void save_fall();
-  void keep_quota();
+  bool make_room(std::uint64_t bytes);
+  void keep_quota(std::uint64_t bytes);
   std::string quota_warning(std::uint64_t used) const;
   std::string new_id();
   Active new_active(const RecordingRequest& request, RecordingReason reason);

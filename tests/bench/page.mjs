@@ -190,7 +190,7 @@ const server = await Server.start('--plant', values.plant);
 try {
   const hand = new Hand(server);
   await hand.begin();
-  const dashboard = await Dashboard.open(browser, server.url, { sharp: true, period: 0 });
+  const dashboard = await Dashboard.open(browser, server.url, { scale: 1, period: 0 });
   await eventually(async () => (await dashboard.state()).t > 5, 'the first pictures');
   const lag = await measureLag(server, dashboard, hand);
   const heap = await measureHeap(server, dashboard, hand);

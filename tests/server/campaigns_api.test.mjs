@@ -5,7 +5,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { longCampaign as long, smallCampaign as spec } from './small_campaign.mjs';
-import { Server, command, eventually, isProblem } from './support.mjs';
+import { Server, command, eventually, isProblem, longPatience } from './support.mjs';
 
 const base = '/api/v1/campaigns';
 
@@ -24,17 +24,17 @@ const inState = (one, state, at = server) =>
   eventually(async () => {
     const item = await get(one, at);
     return item.state === state && item;
-  }, `the campaign to be ${state}`);
+  }, `the campaign to be ${state}`, longPatience);
 const under_way = (one, at = server) =>
   eventually(async () => {
     const item = await get(one, at);
     return item.state === 'running' && item.done > 0 && item;
-  }, 'trials of the campaign');
+  }, 'trials of the campaign', longPatience);
 const reached = (one, done, at = server) =>
   eventually(async () => {
     const item = await get(one, at);
     return item.done >= done && item;
-  }, `${done} trials of the campaign`);
+  }, `${done} trials of the campaign`, longPatience);
 async function cancelled(one, at = server) {
   await at.post(`${one}/cancel`);
   return inState(one, 'cancelled', at);

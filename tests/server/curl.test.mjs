@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import fs from 'node:fs';
 import { after, before, test } from 'node:test';
-import { Server, eventually, root, within } from './support.mjs';
+import { Server, eventually, longPatience, root, within } from './support.mjs';
 
 let server;
 before(async () => (server = await Server.start('--log-level', 'debug', '--web-dir', `${root}/web/public`)));
@@ -20,7 +20,8 @@ async function shell(script) {
   child.stderr.on('data', (data) => (output += data));
   const ended = new Promise((resolve) => child.on('close', resolve));
   try {
-    return { code: await within(ended, 'the lines of curl'), output };
+    // They wait for a campaign.
+    return { code: await within(ended, 'the lines of curl', longPatience), output };
   } finally {
     child.kill('SIGKILL');
   }

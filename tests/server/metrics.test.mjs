@@ -38,6 +38,7 @@ test('ticks, clients, pushes, falls and sessions are counted', async () => {
   await server.post('/api/v1/pushes', { impulse_ns: 150, direction_deg: 90 });
   await server.step(3000);
   const stream = await server.stream();
+  await stream.first(({ op }) => op === 'hello'); // the handshake alone counts nobody yet
   const after_ = await read();
   const grown = (name) => after_[name] - before[name];
   assert.equal(grown('stagger_ticks_total'), 5000);

@@ -5,7 +5,7 @@ import fs from 'node:fs';
 import { after, before, describe, test } from 'node:test';
 import { createConfig, lintFromString } from '@redocly/openapi-core';
 import Ajv2020 from 'ajv/dist/2020.js';
-import { Server, eventually, form, root } from './support.mjs';
+import { Server, eventually, form, longPatience, root } from './support.mjs';
 
 const METHODS = ['get', 'post', 'put', 'patch', 'delete'];
 const BIPED = fs.readFileSync(`${root}/tests/data/robots/pitch_first.urdf`, 'utf8');
@@ -54,7 +54,7 @@ async function aDoneCampaign() {
   }
   const made = await aCampaign();
   const state = async () => (await server.get(`/api/v1/campaigns/${made.parameters.id}`)).json.state;
-  await eventually(async () => (await state()) === 'done', 'the end of the campaign');
+  await eventually(async () => (await state()) === 'done', 'the end of the campaign', longPatience);
   return made;
 }
 const aLongCampaign = () => aCampaign({ design: { kind: 'grid', repeats: 5000 } });
@@ -62,7 +62,8 @@ async function aCancelledCampaign() {
   const made = await aLongCampaign();
   const path = `/api/v1/campaigns/${made.parameters.id}`;
   await server.post(`${path}/cancel`);
-  await eventually(async () => (await server.get(path)).json.state === 'cancelled', 'the end of the campaign');
+  const state = async () => (await server.get(path)).json.state;
+  await eventually(async () => (await state()) === 'cancelled', 'the end of the campaign', longPatience);
   return made;
 }
 async function aRobot() {

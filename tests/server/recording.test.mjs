@@ -388,6 +388,23 @@ test('the full body replays to the bit', async (t) => {
   assert.ok(result.worlds[0].ticks >= 500);
 });
 
+test('a fall whose past is more than the quota has room for is kept with the newest of it', async (t) => {
+  const server = await paused(t, '--quota-gb', '0.001');
+  const { id: earlier } = await start(server);
+  await server.step(100);
+  await stop(server, earlier);
+  for (let i = 0; i < 3; ++i) await server.step(10000);
+  await push(server, { impulse_ns: 150, direction_deg: 90 });
+  await server.step(4000);
+  const [fall, before] = (await server.get(base)).json.items;
+  assert.equal(before.id, earlier, 'what was recorded before is still there');
+  assert.deepEqual([fall.reason, fall.falls, fall.error], ['fall', 1, null]);
+  const { size } = fs.statSync(fileOf(server, fall.id));
+  assert.ok(size > 250_000 && size < 900_000, `${size} bytes of a million`);
+  assert.ok(fall.ticks > 5000 && fall.ticks < 25000, `${fall.ticks} ticks`);
+  assert.equal((await replayed(fileOf(server, fall.id))).code, 0);
+});
+
 test('within the quota: the oldest go first, protected ones stay', async (t) => {
   const server = await paused(t, '--quota-gb', '0.001');
   await server.post('/api/v1/walk', { vx: 0.2 });

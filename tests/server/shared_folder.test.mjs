@@ -6,7 +6,7 @@ import path from 'node:path';
 import test from 'node:test';
 import { readIndexed } from './recording_file.mjs';
 import { longCampaign as spec } from './small_campaign.mjs';
-import { Server, command, eventually, isProblem } from './support.mjs';
+import { Server, command, eventually, isProblem, longPatience } from './support.mjs';
 
 const recordings = '/api/v1/recordings';
 const campaigns = '/api/v1/campaigns';
@@ -136,7 +136,7 @@ const inState = (server, one, state) =>
   eventually(async () => {
     const item = (await server.get(one)).json;
     return item.state === state && item.done > 0 && item;
-  }, `the campaign to be ${state}`);
+  }, `the campaign to be ${state}`, longPatience);
 
 test('a campaign is of one server; the others see how far it is, and take over when it is gone', async (t) => {
   const { serve } = folder(t);

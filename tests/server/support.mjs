@@ -20,7 +20,9 @@ const environment = {
   STAGGER_DATA: data,
 };
 // Sanitizer builds on a loaded machine are many times slower; nothing here waits for the clock.
-const patience = 60_000;
+export const patience = 120_000;
+/** For what campaigns of a server do: they get what all others leave of the processor. */
+export const longPatience = 300_000;
 
 export const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import path from 'node:path';
 import { describe, test } from 'node:test';
-import { eventually, root } from '../server/support.mjs';
+import { eventually, longPatience, root } from '../server/support.mjs';
 import { Dashboard, call, onPages } from './support.mjs';
 
 let server;
@@ -21,7 +21,7 @@ const act = (id, name) => `[data-campaign="${id}"] [data-act=${name}]`;
 const campaign = (id) => call(server, 'GET', `/campaigns/${id}`);
 const newest = async () => (await call(server, 'GET', '/campaigns?limit=1')).items[0];
 const finished = (id) =>
-  eventually(async () => (await campaign(id)).state === 'done', 'the campaign to be done');
+  eventually(async () => (await campaign(id)).state === 'done', 'the campaign to be done', longPatience);
 
 async function resultsOf(id, format) {
   const { status, text } = await server.get(`/api/v1/campaigns/${id}/results?format=${format}`);
@@ -132,7 +132,8 @@ describe('campaigns', () => {
     // 28 trials a direction, one direction after the other.
     const id = await startByForm('growing', 'grid', { directions: 360, repeats: 4 });
     await page.click(act(id, 'show'));
-    const first = await page.until((s) => s.campaigns.shown === id && s.campaigns.trials > 0, 'trials');
+    const some = (s) => s.campaigns.shown === id && s.campaigns.trials > 0;
+    const first = await page.until(some, 'trials', longPatience);
     await page.shows('#campaign-extent', /^\d+ of 10080 trials so far/);
     await page.click('.heat');
     const { chosen } = (await page.state()).campaigns;
@@ -141,6 +142,7 @@ describe('campaigns', () => {
         s.campaigns.trials > first.campaigns.trials &&
         s.campaigns.curves[0].limits.filter(({ fail }) => fail !== null).length > 2,
       'more trials from more directions',
+      longPatience,
     );
     assert.equal((await campaign(id)).state, 'running');
     const places = await page.page.locator('#campaign-polar .mark').count();

@@ -1,7 +1,7 @@
 // The page of the API's documentation: everything of /openapi.json is on it, and nothing comes from elsewhere.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { Server, root } from '../server/support.mjs';
+import { Server, patience, root } from '../server/support.mjs';
 import { launchBrowser } from './support.mjs';
 
 let server;
@@ -17,12 +17,13 @@ after(async () => {
 
 test('every route is on the page, with its fields, ranges and units', async () => {
   const page = await browser.newPage();
+  page.setDefaultTimeout(patience);
   const wrong = [];
   page.on('console', (message) => message.type() === 'error' && wrong.push(message.text()));
   page.on('pageerror', (error) => wrong.push(String(error)));
   page.on('request', (request) => request.url().startsWith(server.url) || wrong.push(request.url()));
   await page.goto(`${server.url}/docs`);
-  await page.waitForSelector('main[aria-busy="false"]', { timeout: 60_000 });
+  await page.waitForSelector('main[aria-busy="false"]');
   const { paths } = (await server.get('/openapi.json')).json;
   const operations = Object.values(paths).flatMap((item) => Object.values(item));
   const ids = operations.map(({ operationId }) => operationId).sort();

@@ -28,8 +28,13 @@ afterEach(async () => {
 
 const specOf = async () => (await pushes(server))[0]?.spec;
 
-/** Drags from the robot by so many pixels; the button stays down until `up`. */
+/** Drags from the robot, which is paused, by so many pixels; the button stays down until `up`. */
 async function dragRobot(dx, dy) {
+  // The camera goes on after it for a while: the robot has a place on the page once that rests.
+  await page.until(({ scene: { figure, camera } }) => {
+    const [ahead, aside] = [0, 1].map((i) => figure.com[i] - camera.target[i]);
+    return Math.hypot(ahead, aside) < 1e-3;
+  }, 'the camera to rest');
   const { x, y } = await page.robotOnPage();
   await page.page.mouse.move(x, y);
   await page.page.mouse.down();
@@ -77,8 +82,11 @@ describe('a push', () => {
   });
 
   test('by a spring is recorded as pushes that follow one another', async () => {
+    // A robot that steps might have gone from where it was seen by the time it is taken hold of.
+    await page.pause();
     await page.click('[data-mode=spring]');
     await dragRobot(40, 0);
+    await call(server, 'POST', '/simulation/resume', {});
     await eventually(async () => (await pushes(server)).length >= 3, 'three pieces of the pull');
     await page.page.mouse.up();
     await page.shows('#push-answer', /^Spring: \d+ pushes in a row/);
@@ -160,7 +168,9 @@ describe('a link', () => {
   test('opened in a fresh browser profile ends with the same state hash', async () => {
     await call(server, 'POST', '/simulation/reset', { seed: 5 });
     await call(server, 'POST', '/walk', { vx: 0.1, vy: 0, wz: 0 });
-    await page.until((s) => s.top_view.adjusted_step, 'the walk');
+    await eventually(async () => (await server.state()).walking, 'the walk');
+    // A link tells of the world that the page knows; in the one before the robot stepped in place.
+    await page.informed();
     await page.fold('#push-details', true);
     await page.fill('#angle', 30);
     await page.page.selectOption('#trigger', 'single_support left');
@@ -227,6 +237,8 @@ describe('walking', () => {
     await page.page.mouse.up();
     await eventually(async () => Math.abs((await walk()).vx - 0.25) < 0.02, 'half of the way up');
     const { vx } = await walk();
+    // The key goes on from the velocity that the page knows.
+    await page.informed();
     await page.page.locator('body').press('w');
     await eventually(async () => Math.abs((await walk()).vx - vx - 0.05) < 1e-9, 'W: faster');
     await page.page.locator('body').press('a');

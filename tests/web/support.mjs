@@ -8,13 +8,12 @@ import { createRequire } from 'node:module';
 import path from 'node:path';
 import { after, afterEach, before, beforeEach } from 'node:test';
 import { chromium } from 'playwright-core';
-import { Server, binary, eventually, root, within } from '../server/support.mjs';
+import { Server, binary, eventually, patience, root, within } from '../server/support.mjs';
 
 const axeSource = fs.readFileSync(
   createRequire(import.meta.url).resolve('axe-core/axe.min.js'),
   'utf8',
 );
-const patience = 120_000;
 const browser = process.env.CHROMIUM ?? '/usr/bin/chromium';
 
 /** One request that must work; the JSON of its answer. */
@@ -63,9 +62,9 @@ export function launchBrowser() {
     args: [
       '--headless',
       '--no-sandbox',
-      '--use-angle=swiftshader',
+      // As Chromium does by itself where there is no graphics card: 3D in software, the rest of the page as ever.
+      // Asked for with --use-angle, all of the page would be drawn in 3D, four times as slowly.
       '--enable-unsafe-swiftshader',
-      '--ignore-gpu-blocklist',
       '--disable-quic',
       '--no-first-run',
       '--disable-background-networking',
@@ -100,7 +99,7 @@ const seldom = 100;
 /**
  * The dashboard in a page of its own, with everything that went wrong or elsewhere on record. It is
  * drawn seldom, unless `period` says otherwise, and with a quarter of the pixels, unless it is to be
- * looked at, `sharp`.
+ * looked at, `sharp`: then as a graphics card draws it.
  */
 export class Dashboard {
   static #open = new Set();
@@ -108,15 +107,29 @@ export class Dashboard {
   static async open(
     browser,
     url,
-    { width = 1440, height = 900, colorScheme = 'light', live = true, sharp = false, period = seldom } = {},
+    {
+      width = 1440,
+      height = 900,
+      colorScheme = 'light',
+      live = true,
+      sharp = false,
+      scale = sharp ? 1 : 0.5,
+      period = seldom,
+    } = {},
   ) {
-    const deviceScaleFactor = sharp ? 1 : 0.5;
     const viewport = { width, height };
-    const context = await browser.newContext({ viewport, colorScheme, deviceScaleFactor });
+    const context = await browser.newContext({ viewport, colorScheme, deviceScaleFactor: scale });
     const page = await context.newPage();
     const dashboard = new Dashboard(context, page, new URL(url).host);
     Dashboard.#open.add(dashboard);
-    await page.addInitScript((period) => {
+    await page.addInitScript(({ period, sharp }) => {
+      if (sharp) {
+        // As with a graphics card: smooth edges and shadows.
+        const { getContext } = HTMLCanvasElement.prototype;
+        HTMLCanvasElement.prototype.getContext = function (type, options) {
+          return getContext.call(this, type, { ...options, failIfMajorPerformanceCaveat: false });
+        };
+      }
       const nextFrame = window.requestAnimationFrame.bind(window);
       if (period > 0) {
         window.requestAnimationFrame = (draw) => setTimeout(() => nextFrame(draw), period);
@@ -125,12 +138,14 @@ export class Dashboard {
       document.addEventListener('securitypolicyviolation', (event) =>
         window.violations.push(`${event.violatedDirective} ${event.blockedURI}`),
       );
-    }, period);
+    }, { period, sharp });
     // A loaded machine takes its time; nothing here is about speed.
     page.setDefaultTimeout(patience);
     await page.goto(url);
+    // The list of robots comes last of what the page asks for at its start, and fills its forms.
     await dashboard.until(
-      (s) => (!live || s.condition === 'live') && s.scene?.figure && s.tick !== null,
+      (s) =>
+        (!live || s.condition === 'live') && s.scene?.figure && s.tick !== null && s.robots.listed.length > 0,
       'a live page',
     );
     return dashboard;
@@ -182,13 +197,14 @@ export class Dashboard {
   }
 
   /** Looks until the drawn state is as wanted, and returns it. */
-  async until(wanted, what) {
+  async until(wanted, what, ms = patience) {
     let state;
+    const look = async () => {
+      state = await this.state();
+      return wanted(state) && state;
+    };
     try {
-      return await eventually(async () => {
-        state = await this.state();
-        return wanted(state) && state;
-      }, what);
+      return await eventually(look, what, ms);
     } catch (error) {
       const { condition, tick, scene, plots } = state ?? {};
       const { figure, tick: drawn } = scene ?? {};
@@ -255,20 +271,35 @@ export class Dashboard {
    * for several drawings of the page.
    */
   async click(selector) {
-    const place = await eventually(
-      () =>
-        this.page.evaluate((wanted) => {
-          const element = document.querySelector(wanted);
-          if (element === null || element.disabled) return null;
-          element.scrollIntoView({ block: 'nearest', inline: 'nearest' });
-          const { left, top, width, height } = element.getBoundingClientRect();
-          const [x, y] = [left + width / 2, top + height / 2];
-          const hit = document.elementFromPoint(x, y);
-          return element.contains(hit) ? { x, y } : null;
-        }, selector),
-      `${selector} to be clicked on`,
-    );
-    await this.page.mouse.click(place.x, place.y);
+    await eventually(async () => {
+      const place = await this.page.evaluate((wanted) => {
+        const element = document.querySelector(wanted);
+        if (element === null || element.disabled) return null;
+        element.scrollIntoView({ block: 'nearest', inline: 'nearest' });
+        const { left, top, width, height } = element.getBoundingClientRect();
+        const [x, y] = [left + width / 2, top + height / 2];
+        if (!element.contains(document.elementFromPoint(x, y))) return null;
+        // A list that is made anew, or moves, before the button is let go takes the click away: then there is none, or
+        // one on something else. A mouse button that has been let go has made its click, if any, by the next task.
+        let landed = false;
+        const see = (event) => {
+          landed = event.composedPath().some((node) => node instanceof Element && node.matches(wanted));
+        };
+        document.addEventListener('click', see, { capture: true, once: true });
+        window.clicked = new Promise((resolve) => {
+          const letGo = () =>
+            setTimeout(() => {
+              document.removeEventListener('click', see, { capture: true });
+              resolve(landed);
+            });
+          document.addEventListener('mouseup', letGo, { capture: true, once: true });
+        });
+        return { x, y };
+      }, selector);
+      if (place === null) return false;
+      await this.page.mouse.click(place.x, place.y);
+      return this.page.evaluate(() => window.clicked);
+    }, `${selector} to be clicked on`);
   }
 
   fill(selector, value) {
@@ -278,6 +309,26 @@ export class Dashboard {
   /** What the server says of the simulation: the page may not know it yet. */
   simulation() {
     return this.page.evaluate(async () => (await fetch('api/v1/simulation')).json());
+  }
+
+  /**
+   * Looks until the page has read what the server says of a running simulation from now on. It asks one question at a
+   * time, so that no answer of before is still to come then.
+   */
+  async informed() {
+    const { tick, session_id: session } = await this.simulation();
+    await eventually(async () => {
+      const facts = await this.page.locator('#facts dd').allTextContents();
+      return Number(facts[0]) > tick && facts.at(-1) === session;
+    }, `the page to have read a state after tick ${tick}`);
+  }
+
+  /** Looks until the page is laid out in that width [px] and nothing sticks out at the side. */
+  fits(width) {
+    return eventually(
+      () => this.page.evaluate((wanted) => document.documentElement.scrollWidth === wanted, width),
+      `nothing to stick out of ${width} px`,
+    );
   }
 
   /** The tick of the server's newest frame. */

@@ -12,6 +12,8 @@ const pixelsPerSquare = 64;
 /** Tiles shown each way from the robot. */
 const tilesAround = 8;
 const tileDepth = 0.06;
+/** Samples for a pixel that looks at the lines from aslant: more is not seen, and slow without a graphics card. */
+const mostAnisotropy = 4;
 
 export class Ground {
   readonly object = new THREE.Group();
@@ -36,7 +38,7 @@ export class Ground {
     this.texture.wrapS = THREE.RepeatWrapping;
     this.texture.wrapT = THREE.RepeatWrapping;
     this.texture.repeat.set(size, size);
-    this.texture.anisotropy = anisotropy;
+    this.texture.anisotropy = Math.min(mostAnisotropy, anisotropy);
     this.texture.colorSpace = THREE.SRGBColorSpace;
     const plane = new THREE.PlaneGeometry(size, size);
     this.squares = new THREE.Mesh(plane, new THREE.MeshBasicMaterial({ map: this.texture }));

@@ -29,8 +29,23 @@ const presets: Readonly<Record<Preset, readonly [number, number]>> = {
 const followTau = 0.35;
 /** The camera looks at this share of the CoM's height. */
 const eyeShare = 0.83;
-const slowPeriodMs = 90;
-const quickPeriodMs = 45;
+/** Shares of the pixels each way; the next one down where pictures take longer than this, up where less [ms]. */
+const qualities = [1, 0.7, 0.5, 0.35] as const;
+const slowPeriodMs = 60;
+const quickPeriodMs = 28;
+/** A change of quality is judged by so many pictures. */
+const picturesToJudge = 20;
+/** Where nothing has moved for so long there is time for all pixels [ms]. */
+const restMs = 300;
+
+/** Without a graphics card WebGL is drawn by the processor, at a tenth of the pace. */
+function hasGraphicsCard(): boolean {
+  const context = document
+    .createElement('canvas')
+    .getContext('webgl2', { failIfMajorPerformanceCaveat: true });
+  context?.getExtension('WEBGL_lose_context')?.loseContext();
+  return context !== null;
+}
 
 export class SceneView {
   private readonly renderer: THREE.WebGLRenderer;
@@ -54,9 +69,11 @@ export class SceneView {
   private settled = false;
   private framesDrawn = 0;
   private drawnTick: number | null = null;
-  /** Milliseconds between drawings, smoothed; a slow machine gets a coarser picture. */
+  /** From a drawing to the next chance of one, smoothed [ms]; a slow machine gets a coarser picture. */
   private period = 16;
-  private quality = 1;
+  private level = 0;
+  private drawnLevel = 0;
+  private judged = 0;
   follow = true;
   /** Whether a drag on the robot pushes: what is replayed is not there to be pushed. */
   aiming = true;
@@ -68,8 +85,10 @@ export class SceneView {
     private theme: Theme,
     listener: AimListener,
   ) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
-    this.renderer.shadowMap.enabled = true;
+    // What costs most where the processor draws: smooth edges and shadows.
+    const quick = hasGraphicsCard();
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: quick });
+    this.renderer.shadowMap.enabled = quick;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
@@ -152,13 +171,18 @@ export class SceneView {
   }
 
   update(nowMs: number): void {
-    const dt = Math.min(1, Math.max(0, (nowMs - this.lastTime) / 1000));
+    const sinceMs = nowMs - this.lastTime;
+    const dt = Math.min(1, Math.max(0, sinceMs / 1000));
+    if (this.lastTime === this.lastDrawn) this.adapt(sinceMs);
     this.lastTime = nowMs;
     const moving = this.followRobot(dt);
-    if (!moving && !this.dirty && this.drawnVersion === this.store.version) return;
+    const news = moving || this.dirty || this.drawnVersion !== this.store.version;
+    const rests = this.drawnLevel > 0 && nowMs - this.lastDrawn > restMs;
+    if (!news && !rests) return;
     this.dirty = false;
     this.drawnVersion = this.store.version;
-    this.adapt(nowMs);
+    this.lastDrawn = nowMs;
+    this.drawnLevel = news ? this.level : 0;
     this.fit();
     if (this.store.frame !== null) {
       this.figure?.pose(this.store);
@@ -188,7 +212,7 @@ export class SceneView {
       marks: this.marks.state(),
       push_arrow: this.arrow.state(),
       ground: this.ground.state(),
-      quality: this.quality,
+      quality: qualities[this.drawnLevel],
       /** Where the centre of mass is on the canvas [px]. */
       com_px: this.comOnCanvas(),
       camera: {
@@ -288,22 +312,26 @@ export class SceneView {
     this.aimLabel.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
   }
 
-  /** Draws with fewer pixels where drawing takes so long that what is shown would fall behind. */
-  private adapt(nowMs: number): void {
-    const since = nowMs - this.lastDrawn;
-    this.lastDrawn = nowMs;
-    // After a pause nothing was drawn because there was nothing to draw.
-    if (since <= 0 || this.store.running !== true) return;
-    this.period += 0.1 * (Math.min(since, 500) - this.period);
-    const wanted = this.period > slowPeriodMs ? 0.5 : this.period < quickPeriodMs ? 1 : this.quality;
-    if (wanted === this.quality) return;
-    this.quality = wanted;
+  /**
+   * Draws with fewer pixels where drawing takes so long that what is shown would fall behind: `sinceMs` went by
+   * from a drawing to the next chance of one.
+   */
+  private adapt(sinceMs: number): void {
+    // A page that was hidden had no chance.
+    this.period += 0.1 * (Math.min(sinceMs, 500) - this.period);
+    this.judged += 1;
+    if (this.judged < picturesToJudge) return;
+    const step = this.period > slowPeriodMs ? 1 : this.period < quickPeriodMs ? -1 : 0;
+    const level = Math.min(qualities.length - 1, Math.max(0, this.level + step));
+    if (level === this.level) return;
+    this.level = level;
+    this.judged = 0;
   }
 
   private fit(): void {
     const { clientWidth, clientHeight } = this.canvas;
     if (clientWidth === 0 || clientHeight === 0) return;
-    const ratio = this.quality * Math.min(2, window.devicePixelRatio || 1);
+    const ratio = (qualities[this.drawnLevel] ?? 1) * Math.min(2, window.devicePixelRatio || 1);
     const size = this.renderer.getSize(new THREE.Vector2());
     if (
       size.x === clientWidth &&
