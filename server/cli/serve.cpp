@@ -1,3 +1,4 @@
+#include <malloc.h>
 #include <pthread.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
@@ -30,6 +31,9 @@ constexpr auto farewell = 600ms;
 // A campaign's trials get this long to end; those that do not are run again by its resume.
 constexpr auto trial_patience = 4s;
 constexpr double bytes_per_gb = 1e9;
+// Pieces of memory from this size on are given back to the system one by one. Left to itself the
+// C library keeps ever larger ones, and the holes between the chunks of the flight recorder add up.
+constexpr int own_pages_bytes = 128 << 10;
 
 /// SIGTERM and SIGINT, taken by waiting for them. Made before any thread, so that all inherit the
 /// mask and none is interrupted.
@@ -92,6 +96,7 @@ int serve_command(const ServeOptions& options, const Folders& folders) {
                  "robot: give a key with --api-key-file or STAGGER_API_KEY\n";
     return exit_usage;
   }
+  mallopt(M_MMAP_THRESHOLD, own_pages_bytes);
   StopSignals signals;
 
   RobotLibrary robots(folders.robots, folders.uploaded_robots());

@@ -7,6 +7,7 @@
 // by then each robot and each kind of client has been there, and what is kept of the past is full.
 import fs from 'node:fs';
 import net from 'node:net';
+import os from 'node:os';
 import path from 'node:path';
 import { parseArgs } from 'node:util';
 import { Server, sleep, stalledClient } from '../server/support.mjs';
@@ -18,7 +19,7 @@ const every = { walk: 20, push: 30, recording: 240, armed: 400, world: 600 }; //
 const clientEveryMs = 1500;
 const mostClients = 8;
 const robots = ['kasaei', 'h1_2', 'g1', 'op3'];
-const grounds = [{ kind: 'flat' }, { kind: 'slope', angle_deg: 3 }, { kind: 'uneven', height_m: 0.01, seed: 3 }];
+const grounds = [{ kind: 'flat' }, { kind: 'slope', angle_deg: 3 }, { kind: 'uneven', height_m: 0.01 }];
 
 const { values } = parseArgs({
   options: {
@@ -68,12 +69,12 @@ let mass = 30;
 
 async function begin() {
   robot = robots[seen.worlds % robots.length];
-  const terrain = grounds[Math.floor(seen.worlds / robots.length) % grounds.length];
+  const terrain = { ...grounds[Math.floor(seen.worlds / robots.length) % grounds.length] };
   seen.worlds += 1;
   const description = await ask('GET', `/robots/${robot}`);
   mass = description.mass_kg;
   unit = Math.sqrt(description.com_height_m);
-  if (terrain.kind === 'uneven') terrain.height_m = 0.01 * description.com_height_m;
+  if (terrain.kind === 'uneven') terrain.height_m *= description.com_height_m;
   await ask('POST', '/simulation/reset', { robot, seed: seen.worlds, terrain });
   Object.assign(world, { time: 0, walked: 0, pushed: -Infinity, began: world.simulated, told: false });
 }
@@ -89,11 +90,21 @@ async function look() {
   return state;
 }
 
+/** The flight recorder's file of the newest fall, copied to where it outlives the server. */
+async function keepFall() {
+  const [newest] = (await ask('GET', '/recordings?limit=1')).items;
+  await sleep(2000); // its end is still to come
+  const file = path.join(os.tmpdir(), `soak-fall-${newest.id}.mcap`);
+  fs.copyFileSync(path.join(server.data, 'recordings', `${newest.id}.mcap`), file);
+  return file;
+}
+
 async function fell(state) {
   seen.falls += 1;
   const [event] = (await ask('GET', '/events?kind=fall&limit=1')).items;
   if (event.tick / 1000 - world.pushed > pushFallS) {
-    fallsWithoutPush.push({ robot, seed: seen.worlds, tick: event.tick, why: state.fall_reason, walk: state.walk });
+    const file = await keepFall();
+    fallsWithoutPush.push({ robot, seed: seen.worlds, tick: event.tick, why: state.fall_reason, file });
   }
   await begin();
 }
@@ -114,7 +125,7 @@ async function act() {
     const speed = (chance() < 0.05 ? 1.5 : 0.1 + 0.3 * chance()) * unit;
     const push = { impulse_ns: speed * mass, direction_deg: Math.floor(360 * chance()), duration_s: oneOf([0.01, 0.1]) };
     const made = await ask('POST', '/pushes', push, [409]); // it fell meanwhile
-    world.pushed = (made?.created_tick ?? 1000 * world.time) / 1000 + 0.1;
+    world.pushed = (made?.tick ?? 1000 * world.time) / 1000 + 0.1;
   }
   if (world.simulated - since.recording >= every.recording) {
     since.recording = world.simulated;

@@ -368,7 +368,7 @@ describe('dashboard', () => {
     const sum = `active\\s+${Math.hypot(...delivered).toFixed(2)} N s`;
     await page.shows('#pushes', new RegExp(sum));
     const picture = process.env.STAGGER_SCREENSHOT === '1';
-    const png = await page.page.screenshot({
+    const png = await page.picture({
       ...(picture ? { path: path.join(root, 'docs/dashboard.png') } : {}),
     });
     assert.ok(png.length > 30000, `a picture of ${png.length} bytes`);

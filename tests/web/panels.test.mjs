@@ -201,7 +201,7 @@ describe('runs', () => {
     assert.ok(Number.isFinite(both.plots.last.dcm_y));
     await page.shows('#replay-over', /aligned at the push/);
     assert.ok(!(await page.axe()).length, 'axe');
-    await page.page.screenshot(picture('dashboard-runs.png'));
+    await page.picture(picture('dashboard-runs.png'));
 
     await page.click('#replay-close');
     const { scene } = await page.until((s) => s.scene.tick === live, 'the live world again');

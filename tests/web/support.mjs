@@ -375,6 +375,12 @@ export class Dashboard {
     return this.drawn(tick + ticks);
   }
 
+  /** A screenshot of a page at rest, which has all of its pixels then. */
+  async picture(options) {
+    await this.until((s) => s.scene.at_rest, 'all pixels');
+    return this.page.screenshot(options);
+  }
+
   /** How many colours a picture of an element has: an empty canvas has one. */
   async colours(selector) {
     const png = (await this.page.locator(selector).screenshot()).toString('base64');

@@ -28,7 +28,7 @@ const presets: Readonly<Record<Preset, readonly [number, number]>> = {
 };
 const followTau = 0.35;
 /** The camera looks at this share of the CoM's height. */
-const eyeShare = 0.83;
+const eyeShare = 0.9;
 /** Shares of the pixels each way; the next one down where pictures take longer than this, up where less [ms]. */
 const qualities = [1, 0.7, 0.5, 0.35] as const;
 const slowPeriodMs = 60;
@@ -145,7 +145,7 @@ export class SceneView {
     const [azimuthDeg, elevationDeg] = presets[name];
     const azimuth = (azimuthDeg * Math.PI) / 180;
     const elevation = (elevationDeg * Math.PI) / 180;
-    const distance = 3.3 * unit;
+    const distance = 3.8 * unit;
     const { target } = this.controls;
     target.z = this.store.terrain.height(target.x, target.y) + eyeShare * unit;
     this.camera.position.set(
@@ -213,6 +213,8 @@ export class SceneView {
       push_arrow: this.arrow.state(),
       ground: this.ground.state(),
       quality: qualities[this.drawnLevel],
+      /** Nothing has moved since it was drawn with all pixels. */
+      at_rest: this.drawnLevel === 0 && !this.dirty && this.fits(),
       /** Where the centre of mass is on the canvas [px]. */
       com_px: this.comOnCanvas(),
       camera: {
@@ -328,18 +330,17 @@ export class SceneView {
     this.judged = 0;
   }
 
+  /** Whether what is drawn has the size of its place on the page. */
+  private fits(): boolean {
+    const size = this.renderer.getSize(new THREE.Vector2());
+    return size.x === this.canvas.clientWidth && size.y === this.canvas.clientHeight;
+  }
+
   private fit(): void {
     const { clientWidth, clientHeight } = this.canvas;
     if (clientWidth === 0 || clientHeight === 0) return;
     const ratio = (qualities[this.drawnLevel] ?? 1) * Math.min(2, window.devicePixelRatio || 1);
-    const size = this.renderer.getSize(new THREE.Vector2());
-    if (
-      size.x === clientWidth &&
-      size.y === clientHeight &&
-      this.renderer.getPixelRatio() === ratio
-    ) {
-      return;
-    }
+    if (this.fits() && this.renderer.getPixelRatio() === ratio) return;
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
