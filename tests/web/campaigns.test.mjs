@@ -69,12 +69,14 @@ describe('campaigns', () => {
       await page.page.screenshot({ path: path.join(root, 'docs', 'dashboard-campaigns.png') });
     }
     await page.click('#campaign-replay');
-    const live = await page.until((s) => s.trial.outcome !== null, 'the trial');
+    // In the live world a trial takes two hundred requests, one after the other.
+    const live = await page.until((s) => s.trial.outcome !== null, 'the trial', longPatience);
     assert.equal(live.trial.outcome.fallen, true);
     // One that falls ends there in a campaign; in the live world it lies for a while.
     await page.click(`.heat[data-trial="${held.number}"]`);
     await page.click('#campaign-replay');
-    await page.until((s) => s.trial.outcome?.stateHash === held.state_hash, 'the same state hash');
+    const same = (s) => s.trial.outcome?.stateHash === held.state_hash;
+    await page.until(same, 'the same state hash', longPatience);
   });
 
   test('are written as a specification, compared, reported and deleted', async () => {

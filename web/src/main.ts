@@ -75,7 +75,7 @@ const stream = new Stream(
       pace.received(performance.now());
     },
     event: (event) => store.addEvent(event),
-    heartbeat: (heartbeat) => store.setRunning(heartbeat.running),
+    heartbeat: (heartbeat) => store.hearRunning(heartbeat.running, performance.now()),
     gap: (count) => store.addDropped(count),
     complaint: (text) => setText(byId('transport-error', HTMLElement), text),
   },

@@ -20,6 +20,8 @@ const maxEvents = 400;
 const maxFootprints = 40;
 /** A second of frames: what a push is told after may come before the word of it. */
 const rememberedFrames = rateHz;
+/** A message of the stream may come so much later than an answer that was made after it [ms]. */
+const underWayMs = 500;
 
 /** Channels of docs/stream.md that the page uses. */
 export const usedChannels = [
@@ -125,6 +127,7 @@ export class Store {
   framesDropped = 0;
   /** How far what is shown is behind the server, as far as this page can tell [ms]. */
   behindMs = 0;
+  private answeredMs = -Infinity;
 
   private readonly listeners = new Map<Topic, (() => void)[]>();
   private lastCondition: Condition = 'connecting';
@@ -220,6 +223,17 @@ export class Store {
   setPushes(pushes: readonly PushResource[]): void {
     this.pushes = pushes;
     this.tell('pushes');
+  }
+
+  /** The server's answer to a pause or a resume of this page. */
+  answerRunning(running: boolean, nowMs: number): void {
+    this.answeredMs = nowMs;
+    this.setRunning(running);
+  }
+
+  /** A heartbeat says so. One that was under way at an answer tells of before; the next comes within a second. */
+  hearRunning(running: boolean, nowMs: number): void {
+    if (nowMs - this.answeredMs > underWayMs) this.setRunning(running);
   }
 
   setRunning(running: boolean): void {

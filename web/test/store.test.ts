@@ -134,6 +134,14 @@ describe('Store', () => {
     expect(store.condition).toBe('paused');
   });
 
+  it('goes by its own answer when an older heartbeat comes after it', () => {
+    store.answerRunning(false, 1000);
+    store.hearRunning(true, 1100);
+    expect(store.condition).toBe('paused');
+    store.hearRunning(true, 2000);
+    expect(store.condition).toBe('live');
+  });
+
   it('tells listeners once per change of condition', () => {
     const changed = vi.fn();
     store.on('condition', changed);

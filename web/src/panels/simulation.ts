@@ -145,7 +145,7 @@ export class SimulationPanel {
     const running = this.store.running !== false;
     void this.command(this.transportError, async () => {
       await (running ? this.api.pause() : this.api.resume());
-      this.store.setRunning(!running);
+      this.store.answerRunning(!running, performance.now());
     });
   }
 
