@@ -36,8 +36,8 @@ McapChunk McapChunkBuilder::take() {
   chunk.plain_crc = crc_over(0, plain_);
   chunk.compression = "zstd";
   packed_.resize(ZSTD_compressBound(plain_.size()));
-  const std::size_t size = ZSTD_compress(packed_.data(), packed_.size(), plain_.data(),
-                                         plain_.size(), zstd_level);
+  const std::size_t size =
+      ZSTD_compress(packed_.data(), packed_.size(), plain_.data(), plain_.size(), zstd_level);
   if (ZSTD_isError(size) != 0) {
     chunk.compression.clear();
     chunk.bytes = plain_;
