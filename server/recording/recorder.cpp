@@ -198,6 +198,8 @@ void Recorder::close_chunk() {
     if (active.file != nullptr) write(active, *chunk);
   }
   end_those([](const Active& active) { return !active.info.error.empty(); });
+  // Another server that shares the folder may have found the same room.
+  keep_quota(0);
 }
 
 void Recorder::write(Active& active, const RecorderChunk& chunk) {
@@ -455,6 +457,7 @@ std::optional<RecordingInfo> Recorder::stop_own(const std::string& id) {
   RecordingInfo info = found->info;
   info.state = RecordingState::done;
   active_.erase(found);
+  keep_quota(0);  // its summary has come, too
   return info;
 }
 

@@ -396,7 +396,10 @@ test('a fall whose past is more than the quota has room for is kept with the new
   for (let i = 0; i < 3; ++i) await server.step(10000);
   await push(server, { impulse_ns: 150, direction_deg: 90 });
   await server.step(4000);
-  const [fall, before] = (await server.get(base)).json.items;
+  const [fall, before] = await eventually(async () => {
+    const { items } = (await server.get(base)).json;
+    return items[0].reason === 'fall' && items[0].state === 'done' && items;
+  }, 'the end of the recording');
   assert.equal(before.id, earlier, 'what was recorded before is still there');
   assert.deepEqual([fall.reason, fall.falls, fall.error], ['fall', 1, null]);
   const { size } = fs.statSync(fileOf(server, fall.id));
