@@ -359,7 +359,7 @@ void Recorder::keep_quota(std::uint64_t bytes) {
 }
 
 std::string Recorder::quota_warning(std::uint64_t used) const {
-  if (used + file_bytes > options_.quota_bytes) {
+  if (used + file_bytes > options_.quota_bytes && !catalogue_.oldest_removable({})) {
     return "the quota is used up and nothing may be removed: nothing is recorded";
   }
   if (removed_ > 0) {
