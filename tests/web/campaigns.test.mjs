@@ -1,19 +1,17 @@
 // Tier 5: campaigns from the page, on the pendulum.
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
-import path from 'node:path';
 import { describe, test } from 'node:test';
-import { eventually, longPatience, root } from '../server/support.mjs';
+import { eventually, longPatience } from '../server/support.mjs';
 import { Dashboard, call, onPages } from './support.mjs';
 
 let server;
 let page;
-const sharp = process.env.STAGGER_SCREENSHOT === '1';
 
 onPages(async (browser, started) => {
   server = started;
   await call(server, 'POST', '/simulation/pause', {});
-  page = await Dashboard.open(browser, server.url, { live: false, sharp });
+  page = await Dashboard.open(browser, server.url, { live: false });
   await page.tab('campaigns');
 });
 
@@ -65,9 +63,6 @@ describe('campaigns', () => {
     assert.ok(fallen && held, 'one of them falls, one needs a step');
     await page.click(`.heat[data-trial="${fallen.number}"]`);
     await page.shows('#campaign-trial-text', /^Trial \d+ fell: .*kasaei, pendulum/);
-    if (sharp) {
-      await page.page.screenshot({ path: path.join(root, 'docs', 'dashboard-campaigns.png') });
-    }
     await page.click('#campaign-replay');
     // In the live world a trial takes two hundred requests, one after the other.
     const live = await page.until((s) => s.trial.outcome !== null, 'the trial', longPatience);
@@ -162,15 +157,4 @@ describe('campaigns', () => {
     await eventually(() => asked.list > list + 2, 'the list to be read again');
     assert.equal(asked.results, results, 'nothing new, nothing read');
   });
-
-  for (const colorScheme of ['light', 'dark']) {
-    test(`give axe-core nothing to object to, ${colorScheme}`, async () => {
-      const { items } = await call(server, 'GET', '/campaigns?state=done');
-      await page.page.emulateMedia({ colorScheme });
-      await page.fold('#campaign-details', true);
-      await show(items[0].id);
-      await page.click('.heat');
-      assert.deepEqual(await page.axe(), []);
-    });
-  }
 });

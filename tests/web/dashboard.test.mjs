@@ -1,11 +1,9 @@
 // Tier 5: the built dashboard in a real browser on the real server.
 //   npm ci && node --test web/      in tests/, with web/ and the server built
 // STAGGER_BIN, CHROMIUM: other programs than build/bin/stagger and /usr/bin/chromium.
-// STAGGER_SCREENSHOT=1: writes docs/dashboard.png.
 import assert from 'node:assert/strict';
 import { after, afterEach, before, beforeEach, describe, test } from 'node:test';
-import path from 'node:path';
-import { Server, eventually, patience, root } from '../server/support.mjs';
+import { Server, eventually, patience } from '../server/support.mjs';
 import { Dashboard, call, launchBrowser, newestFrame, pushes, serveOnPort } from './support.mjs';
 
 let browser;
@@ -349,7 +347,7 @@ describe('dashboard', () => {
 
   test('looks as the README shows it', async () => {
     await page.close();
-    page = await Dashboard.open(browser, server.url, { sharp: true });
+    page = await Dashboard.open(browser, server.url);
     await page.until((s) => s.t > 3, 'a few steps');
     await page.fill('#impulse', 6);
     await page.click('.pad-left');
@@ -367,10 +365,7 @@ describe('dashboard', () => {
     const { delivered_ns: delivered } = (await pushes(server))[0];
     const sum = `active\\s+${Math.hypot(...delivered).toFixed(2)} N s`;
     await page.shows('#pushes', new RegExp(sum));
-    const picture = process.env.STAGGER_SCREENSHOT === '1';
-    const png = await page.picture({
-      ...(picture ? { path: path.join(root, 'docs/dashboard.png') } : {}),
-    });
+    const png = await page.page.screenshot();
     assert.ok(png.length > 30000, `a picture of ${png.length} bytes`);
   });
 });

@@ -9,17 +9,14 @@ import { Dashboard, call, newestFrame, onPages } from './support.mjs';
 
 let server;
 let page;
-const sharp = process.env.STAGGER_SCREENSHOT === '1';
 
 onPages(async (browser, started) => {
   server = started;
   await call(server, 'POST', '/simulation/pause', {});
   await call(server, 'POST', '/simulation/reset', { robot: 'kasaei', plant: 'lipm', parameters: {} });
   await call(server, 'PATCH', '/strategies', { ankle: true, hip: true, step: true, time: true });
-  page = await Dashboard.open(browser, server.url, { live: false, sharp });
+  page = await Dashboard.open(browser, server.url, { live: false });
 });
-
-const picture = (name) => (sharp ? { path: path.join(root, 'docs', name) } : {});
 
 const walk = () => call(server, 'POST', '/walk', { vx: 0, vy: 0, wz: 0 });
 const step = (ticks) => call(server, 'POST', '/simulation/step', { ticks });
@@ -201,7 +198,6 @@ describe('runs', () => {
     assert.ok(Number.isFinite(both.plots.last.dcm_y));
     await page.shows('#replay-over', /aligned at the push/);
     assert.ok(!(await page.axe()).length, 'axe');
-    await page.picture(picture('dashboard-runs.png'));
 
     await page.click('#replay-close');
     const { scene } = await page.until((s) => s.scene.tick === live, 'the live world again');
@@ -355,21 +351,3 @@ describe('a list of steps', () => {
     await page.shows('#steps-error', /steps\.0/);
   });
 });
-
-for (const colorScheme of ['light', 'dark']) {
-  test(`axe-core objects to nothing on the new panels, ${colorScheme}`, async () => {
-    await page.page.emulateMedia({ colorScheme });
-    await walk();
-    await step(2000);
-    await call(server, 'POST', '/pushes', { impulse_ns: 6, direction_deg: 90 });
-    await step(3000);
-    await page.until((s) => s.explain.ending === 'recovered', 'the explanation');
-    for (const tab of ['tuning', 'robots', 'runs']) {
-      await page.tab(tab);
-      if (tab === 'tuning') await page.until((s) => s.tuning.count > 0, 'the parameters');
-      assert.deepEqual(await page.axe(), [], tab);
-    }
-    await page.page.setViewportSize({ width: 390, height: 844 });
-    await page.fits(390);
-  });
-}

@@ -125,9 +125,10 @@ export class Dashboard {
     await page.addInitScript(({ period, sharp }) => {
       if (sharp) {
         // As with a graphics card: smooth edges and shadows.
-        const { getContext } = HTMLCanvasElement.prototype;
-        HTMLCanvasElement.prototype.getContext = function (type, options) {
-          return getContext.call(this, type, { ...options, failIfMajorPerformanceCaveat: false });
+        const { getParameter } = WebGL2RenderingContext.prototype;
+        const unmaskedRenderer = 0x9246;
+        WebGL2RenderingContext.prototype.getParameter = function (name) {
+          return name === unmaskedRenderer ? 'a graphics card' : getParameter.call(this, name);
         };
       }
       const nextFrame = window.requestAnimationFrame.bind(window);
@@ -373,12 +374,6 @@ export class Dashboard {
     await this.fill('#step-ticks', ticks);
     await this.click('#step');
     return this.drawn(tick + ticks);
-  }
-
-  /** A screenshot of a page at rest, which has all of its pixels then. */
-  async picture(options) {
-    await this.until((s) => s.scene.at_rest, 'all pixels');
-    return this.page.screenshot(options);
   }
 
   /** How many colours a picture of an element has: an empty canvas has one. */

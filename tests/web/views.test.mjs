@@ -1,10 +1,8 @@
-// Tier 5: what the views show, plots and their tools, keys, themes, and accessibility.
-// STAGGER_SCREENSHOT=1: writes docs/dashboard-dark.png and docs/dashboard-phone.png.
+// Tier 5: what the views show, plots and their tools, keys, and themes.
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
-import path from 'node:path';
 import { describe, test } from 'node:test';
-import { eventually, root } from '../server/support.mjs';
+import { eventually } from '../server/support.mjs';
 import { Dashboard, call, newestFrame, onPages } from './support.mjs';
 
 let browser;
@@ -18,9 +16,6 @@ onPages(async (...given) => {
   await call(server, 'POST', '/walk', { vx: 0.1, vy: 0, wz: 0 });
   page = await Dashboard.open(browser, server.url);
 });
-
-const picture = (name) =>
-  process.env.STAGGER_SCREENSHOT === '1' ? { path: path.join(root, 'docs', name) } : {};
 
 /** So much simulation time at once, without waiting for it; then it goes on, as far as the page knows, too. */
 async function ahead(seconds) {
@@ -287,50 +282,5 @@ describe('the page', () => {
     assert.equal(theirs.session_id, mine.session_id);
     assert.deepEqual(theirs.scene.figure, mine.scene.figure);
     await other.close();
-  });
-
-  for (const colorScheme of ['light', 'dark']) {
-    test(`has nothing that axe-core objects to, ${colorScheme}`, async () => {
-      const shown = await Dashboard.open(browser, server.url, { colorScheme });
-      await shown.until((s) => s.plots.points > 50, 'some data');
-      // The page reads no stream while it is looked at: the server would take it for a slow client.
-      await call(server, 'POST', '/simulation/pause', {});
-      await shown.until((s) => s.condition === 'paused', 'the pause');
-      for (const tab of ['walk', 'world', 'push']) {
-        await shown.tab(tab);
-        assert.deepEqual(await shown.axe(), [], tab);
-      }
-      for (const part of ['#push-details', '#repeat-details']) await shown.fold(part, true);
-      await shown.click('[data-group=momentum]');
-      assert.deepEqual(await shown.axe(), [], 'everything unfolded');
-      await shown.click('#help-open');
-      assert.deepEqual(await shown.axe(), [], 'the help');
-      await shown.close();
-      await call(server, 'POST', '/simulation/resume', {});
-    });
-  }
-
-  test('is readable in the dark and on a phone', async () => {
-    await page.close();
-    page = await Dashboard.open(browser, server.url, { sharp: true });
-    await call(server, 'POST', '/simulation/reset', { plant: 'bullet' });
-    await call(server, 'POST', '/walk', { vx: 0.1, vy: 0, wz: 0 });
-    await page.page.emulateMedia({ colorScheme: 'dark' });
-    await page.until((s) => s.scene.figure?.kind === 'urdf', 'the body');
-    await ahead(4);
-    await page.until((s) => s.t > 4, 'a few steps');
-    // By steps: in its own time the robot might have fallen before somebody looks.
-    await page.pause();
-    await page.click('[data-delta-v="0.5"][data-duration="0.1"]');
-    await page.click('.pad-left');
-    await page.until((s) => s.pushes.listed[0]?.state === 'scheduled', 'the push');
-    await page.step(200);
-    await page.until((s) => s.pushes.listed[0].state === 'done', 'its end');
-    const wide = await page.picture(picture('dashboard-dark.png'));
-    assert.ok(wide.length > 30000);
-    await page.page.setViewportSize({ width: 390, height: 844 });
-    await page.fits(390);
-    const small = await page.picture({ ...picture('dashboard-phone.png'), fullPage: true });
-    assert.ok(small.length > 30000);
   });
 });

@@ -19,7 +19,7 @@ import type { CampaignInfo } from './campaign';
 import { parsePush } from './push_body';
 import type { PushResource } from './push_body';
 import { parseRecording } from './recording';
-import type { RecordingInfo } from './recording';
+import type { RecordingInfo, RecordingList } from './recording';
 import { parseReport } from './robot_report';
 import type { RobotReport } from './robot_report';
 import { parseParameters, parsePresets } from './tuning';
@@ -345,7 +345,7 @@ export class Api {
   }
 
   /** Newest first, and what the server says of its disk; empty: nothing. */
-  async recordings(tag: string): Promise<{ items: RecordingInfo[]; warning: string }> {
+  async recordings(tag: string): Promise<RecordingList> {
     const query = tag === '' ? '' : `&tag=${encodeURIComponent(tag)}`;
     const answer = await this.request('GET', `/recordings?limit=100${query}`);
     const body: JsonObject = isObject(answer) ? answer : {};

@@ -2,6 +2,7 @@
 
 import type { Data, StreamEvent } from './protocol';
 import type { Leg, Phase, PushTrigger } from './push_request';
+import type { Walk } from './trial';
 import { overlapDepth, polygonFrom, roomTowards, stepsFrom } from './views/transform';
 import type { Point } from './views/transform';
 
@@ -54,15 +55,17 @@ export class PushStory {
   trigger: PushTrigger | null = null;
   /** Frames may come later than events: those up to here still count [s]. */
   private overS = Infinity;
-  private stood = false;
+  /** Whether it stood when the push began. */
+  stood = false;
   private backS: number;
   private stepsSeen = 0;
   private momentum: readonly [number, number] | null = null;
 
-  /** `strategies` are the switches at the push's begin, as far as they are known. */
+  /** The switches of the strategies and the commanded velocity at the push's begin, as far as they are known. */
   constructor(
     started: StreamEvent,
     readonly strategies: Readonly<Record<string, boolean>> = {},
+    readonly walk: Walk | null = null,
   ) {
     this.id = numberOf(started.values, 'id');
     this.startS = started.t;

@@ -22,6 +22,7 @@ import { TuningPanel } from './panels/tuning';
 import { ValuesPanel } from './panels/values';
 import { WalkPanel } from './panels/walk';
 import { PushForm } from './push_form';
+import { Reading } from './reading';
 import { Store, historySeconds, rateHz, usedChannels } from './store';
 import { Stream } from './stream';
 import { Tabs } from './tabs';
@@ -67,7 +68,7 @@ const stream = new Stream(
     hello: (hello) => {
       pace.restart();
       store.setHello(hello);
-      void readRobot(hello.robot);
+      robotReading.replace();
     },
     data: (data) => {
       store.setFrame(data);
@@ -86,19 +87,19 @@ store.on('simulation', () => {
   if (told !== null && frame !== null && told.running) pace.compared(told.timeS, frame.t);
 });
 
-/** The robots that can be chosen, and the one of this session. */
-async function readRobot(name: string): Promise<void> {
-  try {
-    const robot = await api.robot(name);
-    if (store.hello?.robot === name) store.setRobot(robot);
-    store.setRobots(await api.robots());
-  } catch (error) {
+/** The robot of this session, and those that can be chosen. */
+const robotReading = new Reading(
+  () => Promise.all([api.robot(store.hello?.robot ?? ''), api.robots()]),
+  ([robot, robots]) => {
+    store.setRobot(robot);
+    store.setRobots(robots);
+  },
+  (error) =>
     setText(
       byId('scene-note', HTMLElement),
       `The robot's description did not load. ${linesOf(error).join(' ')}`,
-    );
-  }
-}
+    ),
+);
 
 const themes = new ThemeSwitch();
 let theme: Theme | null = null;
@@ -136,12 +137,12 @@ const form = new PushForm(store);
 const push = new PushPanel(store, api, form, keys);
 const simulation = new SimulationPanel(store, api, keys);
 const trial = new TrialPanel(store, api, push, form);
-new WalkPanel(store, api, keys, () => void simulation.read());
+new WalkPanel(store, api, keys, () => simulation.commanded());
 const explain = new ExplainPanel(store, shown, api);
 const tuning = new TuningPanel(store, api);
 const robots = new RobotsPanel(store, api);
 const campaigns = new CampaignsPanel(store, api);
-const steps = new StepsPanel(store, api, topView, () => void simulation.read());
+const steps = new StepsPanel(store, api, topView, () => simulation.commanded());
 const bar = new ConditionBar(store, stream, (text) => events.announce(text));
 
 const press = (id: string, run: () => void): void =>
@@ -255,6 +256,7 @@ async function loadScene(): Promise<void> {
 window.stagger = {
   scene_state: () => ({
     condition: store.condition,
+    theme: theme?.name ?? null,
     session_id: store.hello?.sessionId ?? null,
     robot: store.hello?.robot ?? null,
     plant: store.hello?.plant ?? null,

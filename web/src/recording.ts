@@ -8,6 +8,12 @@ import { parsePush } from './push_body';
 import type { PushResource } from './push_body';
 
 /** What the catalogue says of a recording. */
+/** Recordings, and a word when their room gets scarce. */
+export interface RecordingList {
+  readonly items: readonly RecordingInfo[];
+  readonly warning: string;
+}
+
 export interface RecordingInfo {
   readonly id: string;
   readonly state: string;

@@ -121,13 +121,15 @@ export class Store {
   strategies: Readonly<Record<string, boolean>> = {};
   /** What the strategies did about the newest push. */
   story: PushStory | null = null;
-  /** Goes up with every data message, hello and clearing. */
+  /** Goes up with everything that changes what the views draw. */
   version = 0;
   framesReceived = 0;
   framesDropped = 0;
   /** How far what is shown is behind the server, as far as this page can tell [ms]. */
   behindMs = 0;
   private answeredMs = -Infinity;
+  private mirrored: Store | null = null;
+  private mirroredVersion = -1;
 
   private readonly listeners = new Map<Topic, (() => void)[]>();
   private lastCondition: Condition = 'connecting';
@@ -165,7 +167,10 @@ export class Store {
     this.strategies = other.strategies;
     this.story = other.story;
     this.jointNames = other.jointNames;
-    this.version += 1;
+    // What has not changed is not drawn again.
+    if (this.mirrored !== other || this.mirroredVersion !== other.version) this.version += 1;
+    this.mirrored = other;
+    this.mirroredVersion = other.version;
     for (const topic of news) this.tell(topic);
   }
 
@@ -212,11 +217,12 @@ export class Store {
   }
 
   addEvent(event: StreamEvent): void {
+    this.version += 1;
     this.events.push(event);
     if (this.events.length > maxEvents) this.events.splice(0, this.events.length - maxEvents);
     this.story?.take(event);
     if (event.kind === 'strategies') this.strategies = switchesOf(event);
-    if (event.kind === 'push_started') this.begin(new PushStory(event, this.strategies));
+    if (event.kind === 'push_started') this.begin(new PushStory(event, this.strategies, this.simulation?.walk));
     this.tell('event');
   }
 
@@ -255,6 +261,7 @@ export class Store {
 
   setRobot(robot: RobotInfo | null): void {
     this.robot = robot;
+    this.version += 1;
     this.tell('robot');
   }
 

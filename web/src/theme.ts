@@ -1,6 +1,7 @@
 // Colours with fixed meanings, read from the style sheet so that it alone decides them.
 
 export interface Theme {
+  readonly name: 'light' | 'dark';
   readonly surface: string;
   readonly ink: string;
   readonly muted: string;
@@ -14,6 +15,8 @@ export interface Theme {
   readonly font: string;
 }
 
+const darkSystem = '(prefers-color-scheme: dark)';
+
 function read(): Theme {
   // The variables hold both a light and a dark colour: what an element makes of them is one.
   const probe = document.createElement('span');
@@ -22,7 +25,10 @@ function read(): Theme {
     probe.style.color = `var(${name})`;
     return getComputedStyle(probe).color;
   };
+  const chosen = document.documentElement.dataset['theme'];
+  const isDark = chosen === undefined ? matchMedia(darkSystem).matches : chosen === 'dark';
   const theme: Theme = {
+    name: isDark ? 'dark' : 'light',
     surface: colour('--surface'),
     ink: colour('--ink'),
     muted: colour('--muted'),
@@ -51,7 +57,7 @@ export class ThemeSwitch {
   constructor() {
     const stored = this.stored();
     this.choice = choices.find((choice) => choice === stored) ?? 'auto';
-    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.apply());
+    matchMedia(darkSystem).addEventListener('change', () => this.apply());
     this.apply();
   }
 

@@ -8,6 +8,7 @@ import type { CampaignChoice, CampaignInfo } from '../campaign';
 import { byId, fillSelect, keepRows, numberIn, showLines } from '../dom';
 import { download } from '../export';
 import { parseJson } from '../json';
+import { Reading } from '../reading';
 import type { Store } from '../store';
 import { CampaignCard } from './campaign_card';
 import type { CampaignResults } from './campaign_card';
@@ -29,9 +30,12 @@ export class CampaignsPanel {
   private readonly rows = new Map<string, CampaignRow>();
   private readonly card = new CampaignCard(() => this.show(null, null));
   private items: readonly CampaignInfo[] = [];
+  private readonly reading: Reading<CampaignInfo[]>;
   private shown: CampaignResults | null = null;
   private other: CampaignResults | null = null;
   private refreshing = false;
+  /** Counts what was asked to be shown: only the last of it is, however long it takes. */
+  private chosen = 0;
   /** When the results may be read again [ms]. */
   private nextRefresh = 0;
 
@@ -39,6 +43,14 @@ export class CampaignsPanel {
     private readonly store: Store,
     private readonly api: Api,
   ) {
+    this.reading = new Reading(
+      () => api.campaigns(),
+      (items) => {
+        this.items = items;
+        this.showList();
+        void this.refresh();
+      },
+    );
     byId('campaign-form', HTMLFormElement).addEventListener('submit', (event) => {
       event.preventDefault();
       const choice = this.choice();
@@ -54,13 +66,13 @@ export class CampaignsPanel {
       else this.start(spec);
     });
     store.on('robots', () => this.showRobots());
-    store.on('connection', () => void this.read());
+    store.on('connection', () => this.reading.refresh());
     setInterval(() => {
       const waiting = !this.panel.hidden || this.items.some(isUnderWay);
-      if (waiting && !document.hidden) void this.read();
+      if (waiting && !document.hidden) this.reading.look();
     }, periodMs);
     new MutationObserver(() => {
-      if (!this.panel.hidden) void this.read();
+      if (!this.panel.hidden) this.reading.look();
     }).observe(this.panel, { attributes: true, attributeFilter: ['hidden'] });
   }
 
@@ -108,18 +120,7 @@ export class CampaignsPanel {
   }
 
   private async act(run: () => Promise<unknown>): Promise<void> {
-    if (await attempt(this.error, run)) void this.read();
-  }
-
-  private async read(): Promise<void> {
-    try {
-      this.items = await this.api.campaigns();
-    } catch {
-      // The connection's own state tells that the server is away; the list stays as it was.
-      return;
-    }
-    this.showList();
-    await this.refresh();
+    if (await attempt(this.error, run)) this.reading.replace();
   }
 
   /** Brings the card up to what the list says: the results are read only when there are more. */
@@ -155,11 +156,11 @@ export class CampaignsPanel {
 
   private makeRow(first: CampaignInfo): CampaignRow {
     return new CampaignRow(first, {
-      show: (info) => void this.act(async () => this.show(await this.load(info), null)),
-      compare: (info) =>
-        void this.act(async () =>
-          this.show(this.shown, this.other?.info.id === info.id ? null : await this.load(info)),
-        ),
+      show: (info) => void this.choose(info, (results) => this.show(results, null)),
+      compare: (info) => {
+        if (this.other?.info.id === info.id) this.show(this.shown, null);
+        else void this.choose(info, (results) => this.show(this.shown, results));
+      },
       report: (info) =>
         void this.act(async () => {
           const page = await this.api.campaignResults(info.id, 'html');
@@ -173,6 +174,15 @@ export class CampaignsPanel {
           if (this.shown?.info.id === info.id) this.show(null, null);
           else if (this.other?.info.id === info.id) this.show(this.shown, null);
         }),
+    });
+  }
+
+  private async choose(info: CampaignInfo, show: (results: CampaignResults) => void): Promise<void> {
+    this.chosen += 1;
+    const { chosen } = this;
+    await this.act(async () => {
+      const results = await this.load(info);
+      if (chosen === this.chosen) show(results);
     });
   }
 

@@ -165,8 +165,10 @@ export class ExplainPanel {
     const push = pushOf(this.live);
     if (story === null || push === null || this.busy) return;
     const again = pushAgain(push.spec, story.trigger);
-    const spec = trialLike(this.live, again, settleS, observeS);
-    if (spec === null) return;
+    const now = trialLike(this.live, again, settleS, observeS);
+    if (now === null) return;
+    // Since then it may have fallen, or have been told to walk otherwise.
+    const spec = { ...now, walk: story.stood ? null : (story.walk ?? { vx: 0, vy: 0, wz: 0 }) };
     this.rows = [
       { name: 'as it is', without: null, spec, result: null },
       ...spec.strategies.map((name) => ({

@@ -15,11 +15,13 @@ export class ParameterRow {
   private readonly own = document.createElement('button');
   private readonly hint = document.createElement('p');
   private readonly error = document.createElement('p');
+  /** The user has put in something that the server has not taken yet: it stays. */
+  private edited = false;
 
-  /** `change`: null is the robot's own value. */
+  /** `change`: null is the robot's own value; what was wrong with the value comes back. */
   constructor(
     private parameter: Parameter,
-    change: (value: ParameterValue | null) => void,
+    private readonly change: (value: ParameterValue | null) => Promise<readonly string[]>,
   ) {
     const { name, type } = parameter;
     const id = `parameter-${name.replace('.', '-')}`;
@@ -37,16 +39,18 @@ export class ParameterRow {
       this.input.type = 'number';
       this.input.step = type === 'integer' ? '1' : 'any';
     }
+    this.input.addEventListener('input', () => (this.edited = true));
+    this.input.addEventListener('blur', () => (this.edited = false));
     this.input.addEventListener('change', () => {
-      const value = type === 'boolean' ? this.input.checked : numberIn(this.input);
+      const value = this.entered;
       if (typeof value === 'number' && !Number.isFinite(value)) this.complain(['is not a number']);
-      else change(value);
+      else void this.send(value);
     });
     this.own.type = 'button';
     this.own.textContent = '↺';
     this.own.setAttribute('aria-label', `${name}: the robot's own value`);
     this.own.title = "The robot's own value";
-    this.own.addEventListener('click', () => change(null));
+    this.own.addEventListener('click', () => void this.send(null));
     this.hint.className = 'hint';
     this.hint.id = `${id}-hint`;
     this.error.className = 'alert';
@@ -55,13 +59,12 @@ export class ParameterRow {
     this.update(parameter);
   }
 
-  /** What is being typed stays. */
   update(parameter: Parameter): void {
     this.parameter = parameter;
     const { value, unit, least, most, meaning, waitsFor } = parameter;
     const changed = value !== parameter.default;
     this.element.classList.toggle('changed', changed);
-    if (document.activeElement !== this.input) this.refill();
+    if (!this.edited) this.show(value);
     this.own.hidden = !changed;
     const range = least === null || most === null ? '' : ` ${valueText(least)} to ${valueText(most)}`;
     const units = unit === '' || unit === '1' ? '' : ` ${unit}`;
@@ -72,16 +75,26 @@ export class ParameterRow {
       waitsFor === null ? '' : (waits[waitsFor] ?? waitsFor),
     ];
     setText(this.hint, parts.filter((part) => part !== '').join(' · '));
+  }
+
+  private get entered(): ParameterValue {
+    return this.parameter.type === 'boolean' ? this.input.checked : numberIn(this.input);
+  }
+
+  private show(value: ParameterValue): void {
     if (typeof value === 'boolean') this.input.checked = value;
+    else this.input.value = valueText(value);
   }
 
-  /** The value that counts, in place of what was typed. */
-  refill(): void {
-    const { value } = this.parameter;
-    if (typeof value === 'number') this.input.value = valueText(value);
+  /** A value that is taken is shown as the server tells it, unless there is another one by then. */
+  private async send(value: ParameterValue | null): Promise<void> {
+    const before = this.entered;
+    const wrong = await this.change(value);
+    this.complain(wrong);
+    if (wrong.length === 0 && Object.is(before, this.entered)) this.edited = false;
   }
 
-  complain(lines: readonly string[]): void {
+  private complain(lines: readonly string[]): void {
     showLines(this.error, lines);
   }
 }

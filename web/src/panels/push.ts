@@ -3,7 +3,7 @@
 import type { Api } from '../api';
 import { linesOf } from '../api';
 import { attempt } from '../attempt';
-import { byId, formatNumber, formatShort, numberIn, setText, showLines, smallButton } from '../dom';
+import { byId, formatNumber, formatShort, keepRows, numberIn, setText, showLines } from '../dom';
 import type { Keys } from '../keys';
 import type { PushResource } from '../push_body';
 import type { PushForm } from '../push_form';
@@ -16,9 +16,11 @@ import {
   missingNumber,
 } from '../push_request';
 import type { Direction, PushBody, PushChoice } from '../push_request';
+import { Reading } from '../reading';
 import { SpringPull } from '../spring';
 import type { Store } from '../store';
 import type { AimListener, Grip } from '../views/aim';
+import { PushRow } from './push_row';
 
 const listedPushes = 6;
 /** The server gives no more at once. */
@@ -39,15 +41,15 @@ export class PushPanel implements AimListener {
   private readonly arrowKeys = byId('arrow-keys', HTMLInputElement);
   private readonly answer = byId('push-answer', HTMLElement);
   private readonly error = byId('push-error', HTMLElement);
-  private readonly rows = byId('pushes', HTMLTableSectionElement);
+  private readonly list = byId('pushes', HTMLTableSectionElement);
   private readonly empty = byId('pushes-empty', HTMLElement);
   private readonly again = byId('push-again', HTMLButtonElement);
   private readonly card = byId('aim-card', HTMLElement);
   private last: PushBody | null = null;
   private aimedAt: PushBody | null = null;
   private spring: SpringPull | null = null;
-  private reading = false;
-  private readAgain = false;
+  private readonly rows = new Map<string, PushRow>();
+  private readonly reading: Reading<PushResource[]>;
   /** The aim's arrow in the picture is to go. */
   onAimDone: () => void = () => undefined;
 
@@ -57,6 +59,10 @@ export class PushPanel implements AimListener {
     private readonly form: PushForm,
     keys: Keys,
   ) {
+    this.reading = new Reading(
+      () => api.pushes(this.wantedPushes),
+      (pushes) => store.setPushes(pushes),
+    );
     for (const button of document.querySelectorAll<HTMLButtonElement>('[data-direction]')) {
       const direction = button.dataset['direction'];
       if (isDirection(direction)) {
@@ -80,16 +86,16 @@ export class PushPanel implements AimListener {
       showLines(this.error, []);
       this.dropAim();
       this.show();
-      void this.readPushes();
+      this.reading.replace();
     });
     store.on('pushes', () => this.show());
     store.on('event', () => {
       const kind = store.events[store.events.length - 1]?.kind ?? '';
-      if (kind.startsWith('push')) void this.readPushes();
+      if (kind.startsWith('push')) this.reading.refresh();
     });
     // What an active push has delivered so far changes without an event.
     store.on('simulation', () => {
-      if (store.pushes.some((push) => push.state === 'active')) void this.readPushes();
+      if (store.pushes.some((push) => push.state === 'active')) this.reading.refresh();
     });
   }
 
@@ -168,7 +174,7 @@ export class PushPanel implements AimListener {
           : `Spring: ${pieces.length} pushes in a row, ` +
               `${formatShort(spring.impulseNs, 2)} N s. “Copy as curl” has them all.`,
       );
-      void this.readPushes();
+      this.reading.refresh();
     });
   }
 
@@ -242,7 +248,7 @@ export class PushPanel implements AimListener {
           `${directionName(push.directionDeg)}${until}.`,
       );
     });
-    void this.readPushes();
+    this.reading.refresh();
     return push;
   }
 
@@ -283,28 +289,6 @@ export class PushPanel implements AimListener {
     setText(this.answer, `A train of ${count} pushes, one every ${every} s.`);
   }
 
-  /** One request at a time; news that comes meanwhile asks once more. */
-  private async readPushes(): Promise<void> {
-    if (this.reading) {
-      this.readAgain = true;
-      return;
-    }
-    this.reading = true;
-    const session = this.store.hello?.sessionId;
-    try {
-      const pushes = await this.api.pushes(this.wantedPushes);
-      if (session === this.store.hello?.sessionId) this.store.setPushes(pushes);
-    } catch {
-      // The connection's own state tells that the server is away; the list stays as it was.
-    } finally {
-      this.reading = false;
-      if (this.readAgain) {
-        this.readAgain = false;
-        void this.readPushes();
-      }
-    }
-  }
-
   /** Those that are listed, and on to the one that is told of: of a train it is the oldest that begins. */
   private get wantedPushes(): number {
     const { pushes, story } = this.store;
@@ -316,30 +300,18 @@ export class PushPanel implements AimListener {
   private show(): void {
     const pushes = this.store.pushes.slice(0, listedPushes);
     this.empty.hidden = pushes.length > 0;
-    this.rows.replaceChildren(...pushes.map((push) => this.row(push)));
-  }
-
-  private row(push: PushResource): HTMLTableRowElement {
-    const row = document.createElement('tr');
-    row.className = `state-${push.state}`;
-    const what = row.insertCell();
-    what.textContent =
-      `${push.id}. ${formatShort(push.impulseNs, 3)} N s ${directionName(push.directionDeg)}` +
-      (push.link === (this.store.robot?.torsoLink ?? 'torso') ? '' : `, ${push.link}`);
-    row.insertCell().textContent = push.state;
-    const last = row.insertCell();
-    if (push.state === 'scheduled') {
-      const cancel = (): void => void this.cancel(push.id);
-      last.append(smallButton('Cancel', cancel, `Cancel push ${push.id}`));
-    } else {
-      last.textContent = `${formatNumber(push.deliveredNs, 2)} N s`;
-      last.title = 'Impulse that has acted on the robot';
-    }
-    return row;
+    const torso = this.store.robot?.torsoLink ?? 'torso';
+    keepRows(
+      this.list,
+      this.rows,
+      pushes.map((push) => ({ id: String(push.id), push })),
+      ({ push }) => new PushRow(push, () => void this.cancel(push.id)),
+      (row, { push }) => row.update(push, torso),
+    );
   }
 
   private async cancel(id: number): Promise<void> {
     await attempt(this.error, () => this.api.cancelPush(id));
-    void this.readPushes();
+    this.reading.refresh();
   }
 }

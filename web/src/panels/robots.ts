@@ -1,11 +1,12 @@
 // Robots: which there are, and one of one's own, looked into before it is used.
 
-import type { Api, RobotInfo } from '../api';
+import type { Api } from '../api';
 import { attempt } from '../attempt';
-import { byId, formatNumber, setText, showLines, smallButton } from '../dom';
+import { byId, keepRows, setText, showLines } from '../dom';
 import { meshPath, robotNameFrom } from '../robot_report';
 import type { RobotReport } from '../robot_report';
 import type { Store } from '../store';
+import { RobotRow } from './robot_row';
 
 interface RobotFiles {
   readonly urdf: File;
@@ -31,7 +32,10 @@ export class RobotsPanel {
   private readonly found = byId('robot-report', HTMLElement);
   private chosen: RobotFiles | null = null;
   private report: RobotReport | null = null;
-  private busy = false;
+  private readonly rows = new Map<string, RobotRow>();
+  /** What was asked for goes one after the other. */
+  private turn: Promise<unknown> = Promise.resolve();
+  private waiting = 0;
 
   constructor(
     private readonly store: Store,
@@ -60,23 +64,25 @@ export class RobotsPanel {
     return {
       listed: this.store.robots.map(({ name }) => name),
       report: this.report,
-      busy: this.busy,
+      busy: this.waiting > 0,
     };
   }
 
   /** What the server finds in the files; nothing is kept yet. */
   private async look(files: readonly File[]): Promise<void> {
-    this.chosen = sorted(files);
+    const chosen = sorted(files);
+    this.chosen = chosen;
     this.report = null;
     this.found.hidden = true;
-    if (this.chosen === null) {
+    if (chosen === null) {
       showLines(this.error, ['There is no URDF among these files.']);
       return;
     }
-    const { urdf } = this.chosen;
+    const { urdf } = chosen;
     await this.act('Looking into it…', async () => {
-      if (this.chosen === null) return;
-      this.report = await this.api.checkRobot(await this.form(this.chosen, null));
+      const report = await this.api.checkRobot(await this.form(chosen, null));
+      if (this.chosen !== chosen) return; // others have been dropped since
+      this.report = report;
       const named = this.report.name === '' ? urdf.name : this.report.name;
       this.name.value = robotNameFrom(named);
       this.showReport(this.report);
@@ -109,13 +115,16 @@ export class RobotsPanel {
     return form;
   }
 
-  private async act(words: string, run: () => Promise<void>): Promise<void> {
-    if (this.busy) return;
-    this.busy = true;
-    setText(this.progress, words);
-    await attempt(this.error, run);
-    setText(this.progress, '');
-    this.busy = false;
+  private act(words: string, run: () => Promise<unknown>): Promise<void> {
+    this.waiting += 1;
+    const done = this.turn.then(async () => {
+      setText(this.progress, words);
+      await attempt(this.error, run);
+      this.waiting -= 1;
+      if (this.waiting === 0) setText(this.progress, '');
+    });
+    this.turn = done;
+    return done;
   }
 
   private showReport({ name, facts, quirks }: RobotReport): void {
@@ -144,37 +153,20 @@ export class RobotsPanel {
 
   private show(): void {
     const here = this.store.hello?.robot;
-    this.list.replaceChildren(...this.store.robots.map((robot) => this.row(robot, here)));
-  }
-
-  private row(robot: RobotInfo, here: string | undefined): HTMLLIElement {
-    const row = document.createElement('li');
-    row.dataset['robot'] = robot.name;
-    const title = document.createElement('strong');
-    title.textContent = robot.name;
-    const facts = document.createElement('span');
-    facts.className = 'muted';
-    facts.textContent =
-      `${formatNumber(robot.massKg, 1)} kg, CoM at ${formatNumber(robot.comHeightM, 2)} m, ` +
-      `${robot.joints.length} joints${robot.uploaded ? ', yours' : ''}`;
-    const actions = document.createElement('div');
-    actions.className = 'actions';
-    const button = (text: string, run: () => Promise<unknown>): HTMLButtonElement => {
-      const act = (): void => void this.act(`${text}…`, async () => void (await run()));
-      const made = smallButton(text, act, `${text} ${robot.name}`);
-      made.disabled = robot.name === here;
-      return made;
-    };
-    actions.append(button('Use', () => this.api.reset({ robot: robot.name })));
-    if (robot.uploaded) {
-      actions.append(
-        button('Delete', async () => {
-          await this.api.deleteRobot(robot.name);
-          this.store.setRobots(await this.api.robots());
+    keepRows(
+      this.list,
+      this.rows,
+      this.store.robots.map((robot) => ({ id: robot.name, robot })),
+      ({ id }) =>
+        new RobotRow(id, {
+          use: () => void this.act('Use…', () => this.api.reset({ robot: id })),
+          remove: () =>
+            void this.act('Delete…', async () => {
+              await this.api.deleteRobot(id);
+              this.store.setRobots(await this.api.robots());
+            }),
         }),
-      );
-    }
-    row.append(title, facts, actions);
-    return row;
+      (row, { robot }) => row.update(robot, here),
+    );
   }
 }

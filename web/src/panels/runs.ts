@@ -6,7 +6,8 @@ import { linesOf } from '../api';
 import { attempt } from '../attempt';
 import { byId, formatNumber, keepRows, setText, showLines } from '../dom';
 import { parseRecorded } from '../recording';
-import type { RecordingInfo } from '../recording';
+import type { RecordingInfo, RecordingList } from '../recording';
+import { Reading } from '../reading';
 import { Replay } from '../replay';
 import { rateHz, topics } from '../store';
 import type { Store } from '../store';
@@ -39,6 +40,7 @@ export class RunsPanel {
   private readonly overText = byId('replay-over', HTMLElement);
   private readonly rows = new Map<string, RunRow>();
   private items: readonly RecordingInfo[] = [];
+  private readonly reading: Reading<RecordingList>;
   private replay: Replay | null = null;
   private other: Replay | null = null;
   private playing = false;
@@ -53,9 +55,18 @@ export class RunsPanel {
     private readonly api: Api,
     private readonly views: RunViews,
   ) {
+    const tag = byId('runs-tag', HTMLInputElement);
+    this.reading = new Reading(
+      () => api.recordings(tag.value.trim()),
+      ({ items, warning }) => {
+        this.items = items;
+        setText(byId('runs-warning', HTMLElement), warning);
+        this.show();
+      },
+    );
     byId('record-now', HTMLButtonElement).addEventListener('click', () => this.record('now'));
     byId('record-push', HTMLButtonElement).addEventListener('click', () => this.record('push'));
-    byId('runs-tag', HTMLInputElement).addEventListener('input', () => void this.read());
+    tag.addEventListener('input', () => this.reading.replace());
     byId('replay-close', HTMLButtonElement).addEventListener('click', () => this.close());
     this.playButton.addEventListener('click', () => this.setPlaying(!this.playing));
     this.slider.addEventListener('input', () => {
@@ -69,12 +80,12 @@ export class RunsPanel {
         if (this.replay === null) shown.mirror(live, topic);
       });
     }
-    live.on('connection', () => void this.read());
+    live.on('connection', () => this.reading.refresh());
     setInterval(() => {
-      if (!this.panel.hidden && !document.hidden) void this.read();
+      if (!this.panel.hidden && !document.hidden) this.reading.look();
     }, periodMs);
     new MutationObserver(() => {
-      if (!this.panel.hidden) void this.read();
+      if (!this.panel.hidden) this.reading.look();
     }).observe(this.panel, { attributes: true, attributeFilter: ['hidden'] });
   }
 
@@ -113,18 +124,6 @@ export class RunsPanel {
     return (this.replay?.pushS ?? 0) - (this.other?.pushS ?? 0);
   }
 
-  private async read(): Promise<void> {
-    try {
-      const tag = byId('runs-tag', HTMLInputElement).value.trim();
-      const { items, warning } = await this.api.recordings(tag);
-      this.items = items;
-      setText(byId('runs-warning', HTMLElement), warning);
-      this.show();
-    } catch {
-      // The connection's own state tells that the server is away; the list stays as it was.
-    }
-  }
-
   private show(): void {
     keepRows(
       this.list,
@@ -148,7 +147,7 @@ export class RunsPanel {
   }
 
   private async act(run: () => Promise<unknown>): Promise<void> {
-    if (await attempt(this.error, run)) void this.read();
+    if (await attempt(this.error, run)) this.reading.replace();
   }
 
   private async load(info: RecordingInfo): Promise<Replay | null> {

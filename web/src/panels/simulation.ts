@@ -1,9 +1,10 @@
 // Pause, resume, step, reset, strategies, and how the simulation is doing.
 
-import type { Api, ResetChoice } from '../api';
+import type { Api, ResetChoice, SimulationState } from '../api';
 import { attempt } from '../attempt';
 import { byId, fillSelect, formatNumber, numberIn, setText, showLines } from '../dom';
 import type { Keys } from '../keys';
+import { Reading } from '../reading';
 import type { Store } from '../store';
 
 const pollMs = 1000;
@@ -66,11 +67,9 @@ export class SimulationPanel {
     ['State hash', true],
     ['Session', true],
   ]);
-  private reading = false;
-  /** Counts commands: a state that was asked for before one tells of the time before it. */
-  private commands = 0;
-  /** Strategies whose switch the server has not answered yet: it stays as the user has put it. */
-  private readonly switching = new Set<string>();
+  private readonly reading: Reading<SimulationState>;
+  /** How often the switch of a strategy was used without an answer yet: it stays as the user has put it. */
+  private readonly switching = new Map<string, number>();
 
   constructor(
     private readonly store: Store,
@@ -78,6 +77,10 @@ export class SimulationPanel {
     keys: Keys,
   ) {
     const { transportError } = this;
+    this.reading = new Reading(
+      () => api.simulation(),
+      (state) => store.setSimulation(state),
+    );
     this.pause.addEventListener('click', () => this.togglePause());
     this.step.addEventListener('click', () => this.advance());
     const reset = (): void => void this.command(transportError, () => this.api.reset({}));
@@ -110,35 +113,22 @@ export class SimulationPanel {
       showLines(this.error, []);
       this.showRobots();
       this.showChoice();
-      void this.read();
+      this.reading.replace();
     });
     store.on('event', () => {
       const kind = store.events[store.events.length - 1]?.kind;
-      if (kind === 'command' || kind === 'fall') void this.read();
+      if (kind === 'command' || kind === 'fall') this.reading.refresh();
     });
     store.on('condition', () => this.showRunning());
     setInterval(() => {
-      if (!document.hidden && store.connection.kind === 'open') void this.read();
+      if (!document.hidden && store.connection.kind === 'open') this.reading.look();
     }, pollMs);
     this.showRunning();
   }
 
-  /** Asks the server for the simulation's state. */
-  async read(): Promise<void> {
-    if (this.reading) return;
-    this.reading = true;
-    try {
-      let before: number;
-      do {
-        before = this.commands;
-        const state = await this.api.simulation();
-        if (before === this.commands) this.store.setSimulation(state);
-      } while (before !== this.commands);
-    } catch {
-      // The connection's own state tells that the server is away.
-    } finally {
-      this.reading = false;
-    }
+  /** The page has commanded something: what was asked before it is not shown any more. */
+  commanded(): void {
+    this.reading.replace();
   }
 
   private togglePause(): void {
@@ -180,8 +170,7 @@ export class SimulationPanel {
     showLines(this.transportError, []);
     showLines(this.error, []);
     await attempt(where, send);
-    this.commands += 1;
-    void this.read();
+    this.commanded();
   }
 
   private showRunning(): void {
@@ -244,7 +233,7 @@ export class SimulationPanel {
     for (const input of this.strategies.querySelectorAll('input')) {
       const name = input.dataset['strategy'] ?? '';
       const on = strategies[name];
-      if (on !== undefined && !this.switching.has(name)) input.checked = on;
+      if (on !== undefined && (this.switching.get(name) ?? 0) === 0) input.checked = on;
     }
   }
 
@@ -260,10 +249,11 @@ export class SimulationPanel {
     label.append(input, name);
     input.addEventListener('change', () => {
       const on = input.checked;
-      this.switching.add(name);
+      const { switching } = this;
+      switching.set(name, (switching.get(name) ?? 0) + 1);
       void this.command(byId('strategies-error', HTMLElement), () =>
         this.api.setStrategies({ [name]: on }),
-      ).then(() => this.switching.delete(name));
+      ).then(() => switching.set(name, (switching.get(name) ?? 1) - 1));
     });
     return label;
   }

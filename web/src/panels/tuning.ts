@@ -3,11 +3,13 @@
 import type { Api } from '../api';
 import { Problem, linesOf } from '../api';
 import { attempt } from '../attempt';
-import { byId, setText, showLines, smallButton } from '../dom';
+import { byId, keepRows, setText, showLines } from '../dom';
+import { Reading } from '../reading';
 import type { Store } from '../store';
-import { changedOf, matches, valueText } from '../tuning';
+import { changedOf, matches } from '../tuning';
 import type { Parameter, ParameterValue, PresetInfo } from '../tuning';
 import { ParameterRow } from './parameter_row';
+import { PresetRow } from './preset_row';
 
 export class TuningPanel {
   private readonly panel = byId('tuning-panel', HTMLElement);
@@ -18,13 +20,25 @@ export class TuningPanel {
   private readonly presetError = byId('preset-error', HTMLElement);
   private readonly rows = new Map<string, ParameterRow>();
   private readonly groups = new Map<string, HTMLDetailsElement>();
+  private readonly presetRows = new Map<string, PresetRow>();
   private parameters: readonly Parameter[] = [];
   private presets: readonly PresetInfo[] = [];
+  private readonly reading: Reading<[Parameter[], PresetInfo[]]>;
 
   constructor(
-    private readonly store: Store,
+    store: Store,
     private readonly api: Api,
   ) {
+    this.reading = new Reading(
+      () => Promise.all([api.parameters(), api.presets()]),
+      ([parameters, presets]) => {
+        this.parameters = parameters;
+        this.presets = presets;
+        showLines(this.error, []);
+        this.show();
+      },
+      (error) => showLines(this.error, linesOf(error)),
+    );
     this.search.addEventListener('input', () => this.filter());
     this.changedOnly.addEventListener('change', () => this.filter());
     byId('preset-form', HTMLFormElement).addEventListener('submit', (event) => {
@@ -51,19 +65,7 @@ export class TuningPanel {
   }
 
   private readIfShown(): void {
-    if (!this.panel.hidden) void this.read();
-  }
-
-  private async read(): Promise<void> {
-    try {
-      const [parameters, presets] = await Promise.all([this.api.parameters(), this.api.presets()]);
-      this.parameters = parameters;
-      this.presets = presets;
-      showLines(this.error, []);
-      this.show();
-    } catch (error) {
-      showLines(this.error, linesOf(error));
-    }
+    if (!this.panel.hidden) this.reading.refresh();
   }
 
   private show(): void {
@@ -88,7 +90,7 @@ export class TuningPanel {
         group.append(summary);
         this.groups.set(groupName, group);
       }
-      const row = new ParameterRow(parameter, (value) => void this.change(name, value));
+      const row = new ParameterRow(parameter, (value) => this.change(name, value));
       this.rows.set(name, row);
       group.append(row.element);
     }
@@ -124,16 +126,15 @@ export class TuningPanel {
     );
   }
 
-  private async change(name: string, value: ParameterValue | null): Promise<void> {
-    const row = this.rows.get(name);
+  /** What was wrong with the value; nothing when it is taken. */
+  private async change(name: string, value: ParameterValue | null): Promise<readonly string[]> {
     try {
       await this.api.changeParameters({ [name]: value });
-      row?.complain([]);
-      await this.read();
-      row?.refill();
+      this.reading.replace();
+      return [];
     } catch (error) {
       const own = error instanceof Problem ? error.errors.map(({ detail }) => detail) : [];
-      row?.complain(own.length > 0 ? own : linesOf(error));
+      return own.length > 0 ? own : linesOf(error);
     }
   }
 
@@ -145,47 +146,32 @@ export class TuningPanel {
       return;
     }
     const note = byId('preset-note', HTMLInputElement).value.trim();
-    await this.act(() =>
-      this.api.savePreset(name, {
+    await this.act(async () => {
+      // As they are now, whatever was changed elsewhere since they were shown.
+      const [parameters, { strategies }] = await Promise.all([this.api.parameters(), this.api.simulation()]);
+      await this.api.savePreset(name, {
         ...(note === '' ? {} : { note }),
-        parameters: changedOf(this.parameters),
-        strategies: this.store.simulation?.strategies ?? {},
-      }),
-    );
+        parameters: changedOf(parameters),
+        strategies,
+      });
+    });
   }
 
   private async act(run: () => Promise<unknown>): Promise<void> {
-    if (await attempt(this.presetError, run)) await this.read();
+    if (await attempt(this.presetError, run)) this.reading.replace();
   }
 
   private showPresets(): void {
-    byId('presets', HTMLUListElement).replaceChildren(
-      ...this.presets.map(({ name, note, parameters, strategies }) => {
-        const row = document.createElement('li');
-        row.dataset['preset'] = name;
-        const title = document.createElement('strong');
-        title.textContent = name;
-        const what = document.createElement('span');
-        what.className = 'muted';
-        const off = Object.keys(strategies).filter((strategy) => strategies[strategy] === false);
-        what.textContent = [
-          note,
-          ...Object.entries(parameters).map(([key, value]) => `${key} ${valueText(value)}`),
-          ...off.map((strategy) => `${strategy} off`),
-        ]
-          .filter((part) => part !== '')
-          .join(' · ');
-        const actions = document.createElement('div');
-        actions.className = 'actions';
-        const button = (text: string, run: () => Promise<unknown>): HTMLButtonElement =>
-          smallButton(text, () => void this.act(run), `${text} preset ${name}`);
-        actions.append(
-          button('Use', () => this.api.applyPreset(name)),
-          button('Delete', () => this.api.deletePreset(name)),
-        );
-        row.append(title, what, actions);
-        return row;
-      }),
+    keepRows(
+      byId('presets', HTMLUListElement),
+      this.presetRows,
+      this.presets.map((preset) => ({ id: preset.name, preset })),
+      ({ id }) =>
+        new PresetRow(id, {
+          use: () => void this.act(() => this.api.applyPreset(id)),
+          remove: () => void this.act(() => this.api.deletePreset(id)),
+        }),
+      (row, { preset }) => row.update(preset),
     );
   }
 }

@@ -29,6 +29,8 @@ export class WalkPanel {
   private wanted: Walk = { vx: 0, vy: 0, wz: 0 };
   private held = false;
   private sending = false;
+  /** Commands without an answer yet: what the server says of walking is from before them. */
+  private unanswered = 0;
   private sendNext = false;
 
   constructor(
@@ -59,7 +61,7 @@ export class WalkPanel {
     });
     store.on('simulation', () => {
       const { simulation } = store;
-      if (simulation === null || this.held || this.sending) return;
+      if (simulation === null || this.held || this.sending || this.unanswered > 0) return;
       this.wanted = simulation.walk;
       this.showKnob();
     });
@@ -165,10 +167,12 @@ export class WalkPanel {
 
   private async command(words: string, send: () => Promise<CommandAnswer>): Promise<void> {
     setText(this.answer, '');
+    this.unanswered += 1;
     await attempt(this.error, async () => {
       const { timeS } = await send();
       setText(this.answer, `${words} from ${formatNumber(timeS, 3)} s.`);
-      this.done();
     });
+    this.unanswered -= 1;
+    this.done();
   }
 }

@@ -14,6 +14,7 @@ import type { Figure } from './figure';
 import { Ground } from './ground';
 import { GroundMarks } from './ground_marks';
 import type { Layer } from './ground_marks';
+import { Painter } from './painter';
 import { PushArrow } from './push_arrow';
 import { lag } from './transform';
 
@@ -31,24 +32,15 @@ const followTau = 0.35;
 const eyeShare = 0.9;
 /** Shares of the pixels each way; the next one down where pictures take longer than this, up where less [ms]. */
 const qualities = [1, 0.7, 0.5, 0.35] as const;
-const slowPeriodMs = 60;
-const quickPeriodMs = 28;
+const slowPeriodMs = 50;
+const quickPeriodMs = 24;
 /** A change of quality is judged by so many pictures. */
 const picturesToJudge = 20;
 /** Where nothing has moved for so long there is time for all pixels [ms]. */
 const restMs = 300;
 
-/** Without a graphics card WebGL is drawn by the processor, at a tenth of the pace. */
-function hasGraphicsCard(): boolean {
-  const context = document
-    .createElement('canvas')
-    .getContext('webgl2', { failIfMajorPerformanceCaveat: true });
-  context?.getExtension('WEBGL_lose_context')?.loseContext();
-  return context !== null;
-}
-
 export class SceneView {
-  private readonly renderer: THREE.WebGLRenderer;
+  private readonly painter: Painter;
   private readonly scene = new THREE.Scene();
   private readonly camera = new THREE.PerspectiveCamera(36, 1, 0.02, 80);
   private readonly controls: OrbitControls;
@@ -66,11 +58,12 @@ export class SceneView {
   private drawnVersion = -1;
   private lastTime = 0;
   private lastDrawn = 0;
+  private isJudged = true;
   private settled = false;
   private framesDrawn = 0;
   private drawnTick: number | null = null;
   /** From a drawing to the next chance of one, smoothed [ms]; a slow machine gets a coarser picture. */
-  private period = 16;
+  private period = 0.5 * (slowPeriodMs + quickPeriodMs);
   private level = 0;
   private drawnLevel = 0;
   private judged = 0;
@@ -85,11 +78,8 @@ export class SceneView {
     private theme: Theme,
     listener: AimListener,
   ) {
-    // What costs most where the processor draws: smooth edges and shadows.
-    const quick = hasGraphicsCard();
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: quick });
-    this.renderer.shadowMap.enabled = quick;
-    this.renderer.shadowMap.type = THREE.PCFShadowMap;
+    this.painter = new Painter(canvas);
+    if (this.painter.isSlow) this.level = qualities.length - 1;
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.maxPolarAngle = 0.495 * Math.PI;
@@ -101,7 +91,7 @@ export class SceneView {
     this.sun.shadow.mapSize.set(1024, 1024);
     this.sun.shadow.radius = 4;
     this.sun.shadow.bias = -0.0006;
-    this.ground = new Ground(theme, this.renderer.capabilities.getMaxAnisotropy());
+    this.ground = new Ground(theme, this.painter.anisotropy);
     this.marks = new GroundMarks(theme);
     this.arrow = new PushArrow(theme);
     this.scene.add(this.sky, this.sun, this.sun.target, this.ground.object);
@@ -173,15 +163,18 @@ export class SceneView {
   update(nowMs: number): void {
     const sinceMs = nowMs - this.lastTime;
     const dt = Math.min(1, Math.max(0, sinceMs / 1000));
-    if (this.lastTime === this.lastDrawn) this.adapt(sinceMs);
     this.lastTime = nowMs;
     const moving = this.followRobot(dt);
-    const news = moving || this.dirty || this.drawnVersion !== this.store.version;
+    if (moving) this.dirty = true;
+    if (this.painter.busy) return;
+    if (!this.isJudged) this.adapt(nowMs - this.lastDrawn);
+    const news = this.dirty || this.drawnVersion !== this.store.version;
     const rests = this.drawnLevel > 0 && nowMs - this.lastDrawn > restMs;
     if (!news && !rests) return;
     this.dirty = false;
     this.drawnVersion = this.store.version;
     this.lastDrawn = nowMs;
+    this.isJudged = false;
     this.drawnLevel = news ? this.level : 0;
     this.fit();
     if (this.store.frame !== null) {
@@ -199,9 +192,11 @@ export class SceneView {
     );
     this.aim.update();
     this.placeAimLabel();
-    this.renderer.render(this.scene, this.camera);
-    this.framesDrawn += 1;
-    this.drawnTick = this.store.frame?.tick ?? null;
+    const tick = this.store.frame?.tick ?? null;
+    this.painter.paint(this.scene, this.camera, () => {
+      this.framesDrawn += 1;
+      this.drawnTick = tick;
+    });
   }
 
   state(): Record<string, unknown> {
@@ -214,7 +209,7 @@ export class SceneView {
       ground: this.ground.state(),
       quality: qualities[this.drawnLevel],
       /** Nothing has moved since it was drawn with all pixels. */
-      at_rest: this.drawnLevel === 0 && !this.dirty && this.fits(),
+      at_rest: this.drawnLevel === 0 && !this.dirty && !this.painter.busy && this.painter.fits,
       /** Where the centre of mass is on the canvas [px]. */
       com_px: this.comOnCanvas(),
       camera: {
@@ -319,6 +314,7 @@ export class SceneView {
    * from a drawing to the next chance of one.
    */
   private adapt(sinceMs: number): void {
+    this.isJudged = true;
     // A page that was hidden had no chance.
     this.period += 0.1 * (Math.min(sinceMs, 500) - this.period);
     this.judged += 1;
@@ -330,20 +326,10 @@ export class SceneView {
     this.judged = 0;
   }
 
-  /** Whether what is drawn has the size of its place on the page. */
-  private fits(): boolean {
-    const size = this.renderer.getSize(new THREE.Vector2());
-    return size.x === this.canvas.clientWidth && size.y === this.canvas.clientHeight;
-  }
-
   private fit(): void {
-    const { clientWidth, clientHeight } = this.canvas;
-    if (clientWidth === 0 || clientHeight === 0) return;
     const ratio = (qualities[this.drawnLevel] ?? 1) * Math.min(2, window.devicePixelRatio || 1);
-    if (this.fits() && this.renderer.getPixelRatio() === ratio) return;
-    this.renderer.setPixelRatio(ratio);
-    this.renderer.setSize(clientWidth, clientHeight, false);
-    this.camera.aspect = clientWidth / clientHeight;
+    if (!this.painter.fit(ratio)) return;
+    this.camera.aspect = this.canvas.clientWidth / this.canvas.clientHeight;
     this.camera.updateProjectionMatrix();
   }
 }

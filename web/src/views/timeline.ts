@@ -10,6 +10,7 @@ import type { TimeWindow } from './time_window';
 
 const redrawPeriodMs = 100;
 const barHeight = 6;
+const markEveryS = 10;
 
 export class Timeline {
   private readonly context: CanvasRenderingContext2D;
@@ -80,6 +81,13 @@ export class Timeline {
     this.range = [end - historySeconds, end];
     const [from] = this.range;
     const x = (t: number): number => ((t - from) / historySeconds) * width;
+
+    // How far it goes, with a mark every ten seconds.
+    c.fillStyle = theme.line;
+    c.fillRect(0, height - 1, width, 1);
+    for (let s = Math.ceil(from / markEveryS) * markEveryS; s <= end; s += markEveryS) {
+      c.fillRect(Math.min(width - 1, x(s)), height - 5, 1, 5);
+    }
 
     // The standing foot: left above, right below the middle; both: both.
     const t = table.view('t');
