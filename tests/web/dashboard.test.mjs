@@ -2,8 +2,11 @@
 //   npm ci && node --test web/      in tests/, with web/ and the server built
 // STAGGER_BIN, CHROMIUM: other programs than build/bin/stagger and /usr/bin/chromium.
 import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import path from 'node:path';
+import { gzipSync } from 'node:zlib';
 import { after, afterEach, before, beforeEach, describe, test } from 'node:test';
-import { Server, eventually, patience } from '../server/support.mjs';
+import { Server, eventually, patience, root } from '../server/support.mjs';
 import { Dashboard, call, launchBrowser, newestFrame, pushes, serveOnPort } from './support.mjs';
 
 let browser;
@@ -29,6 +32,15 @@ function byComponent(frame, name) {
   const channel = frame.hello.channels.find((candidate) => candidate.name === name);
   return Object.fromEntries(channel.components.map(({ name: key }, i) => [key, frame.v[name][i]]));
 }
+
+test('all of the page together is at most 350 kB, compressed', () => {
+  const dist = path.join(root, 'web', 'dist');
+  const names = fs.readdirSync(dist, { recursive: true }).map((name) => path.join(dist, name));
+  const files = names.filter((name) => fs.statSync(name).isFile());
+  const bytes = files.map((file) => gzipSync(fs.readFileSync(file)).length);
+  const sum = bytes.reduce((total, one) => total + one, 0);
+  assert.ok(files.length > 3 && sum <= 350_000, `${sum} bytes in ${files.length} files`);
+});
 
 describe('dashboard', () => {
   let server;

@@ -152,6 +152,7 @@ describe('nothing is wrong with', () => {
     await page.until((s) => s.runs.replayed === first, 'the replay');
     await page.click(`[data-run="${second}"] [data-act=over]`);
     await page.until((s) => s.runs.over === second, 'the other run');
+    await page.until((s) => s.scene.ghost?.kind === 'urdf', 'its body');
     await page.fill('#replay-time', (await page.state()).runs.t + 0.8);
     await lookAt('runs');
     await page.click('#replay-close');

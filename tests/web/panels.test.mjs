@@ -197,9 +197,17 @@ describe('runs', () => {
     const both = await page.until((s) => s.plots.current && 'other_dcm_y' in s.plots.last, 'both lines');
     assert.ok(Number.isFinite(both.plots.last.dcm_y));
     await page.shows('#replay-over', /aligned at the push/);
+    // In 3D it stands beside the first run, at the same time from the push on.
+    const answer = await server.get(`/api/v1/recordings/${second}/data?format=ndjson&every=10`);
+    const others = answer.text.trim().split('\n').map((line) => JSON.parse(line));
+    const then = both.runs.t - runs.shift;
+    const frame = others.filter(({ op, t }) => op === 'data' && t <= then + 1e-9).at(-1);
+    const { scene: withGhost } = await page.until((s) => s.scene.ghost?.kind === 'pendulum', 'the ghost');
+    assert.deepEqual(withGhost.ghost.com, ['x', 'y', 'z'].map((axis) => frame.v[`com.${axis}`]));
     assert.ok(!(await page.axe()).length, 'axe');
 
     await page.click('#replay-close');
+    await page.until((s) => s.scene.ghost === null, 'the ghost to go');
     const { scene } = await page.until((s) => s.scene.tick === live, 'the live world again');
     assert.deepEqual(scene.figure.com, (await newestFrame(server)).v.com);
     await page.shows('#explain-title', /^Push 1: 6 N s left$/);

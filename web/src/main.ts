@@ -123,6 +123,7 @@ runs.onReplay = (replaying) => {
   document.body.dataset['shows'] = replaying ? 'replay' : 'live';
   if (scene !== null) scene.aiming = !replaying;
 };
+runs.onOther = (other) => scene?.showGhost(other);
 themes.follow((next) => {
   scene?.setTheme(next);
   topView.setTheme(next);
@@ -243,6 +244,7 @@ async function loadScene(): Promise<void> {
     follow.addEventListener('change', () => (view.follow = follow.checked));
     view.follow = follow.checked;
     view.aiming = !runs.replaying;
+    view.showGhost(runs.otherStore);
     scene = view;
   } catch (error) {
     const reason = error instanceof Error ? error.message : String(error);

@@ -56,11 +56,6 @@ export class Replay {
     return this.frames[this.index]?.t ?? 0;
   }
 
-  /** The frame at that time: the last one that is not later. */
-  frameAt(t: number): Data | null {
-    return this.frames[this.indexAt(t)] ?? null;
-  }
-
   seek(t: number): void {
     this.index = this.indexAt(t);
     const { store } = this;
@@ -86,6 +81,7 @@ export class Replay {
     if (newest !== undefined && newest !== last) this.footprints.push(newest);
   }
 
+  /** Of the last frame that is not later. */
   private indexAt(t: number): number {
     let low = 0;
     let high = this.frames.length - 1;

@@ -48,6 +48,8 @@ export class RunsPanel {
   private loading = 0;
   /** The views change what they show. */
   onReplay: (replaying: boolean) => void = () => undefined;
+  /** Another run is laid over it; null: none. */
+  onOther: (other: Store | null) => void = () => undefined;
 
   constructor(
     private readonly live: Store,
@@ -91,6 +93,10 @@ export class RunsPanel {
 
   get replaying(): boolean {
     return this.replay !== null;
+  }
+
+  get otherStore(): Store | null {
+    return this.other?.store ?? null;
   }
 
   /** A live frame has come. */
@@ -173,9 +179,8 @@ export class RunsPanel {
   private async open(info: RecordingInfo): Promise<void> {
     const replay = await this.load(info);
     if (replay === null) return;
-    this.other = null;
+    this.setOther(null);
     this.replay = replay;
-    this.views.plots.setOverlay(null);
     this.slider.min = String(replay.startS);
     this.slider.max = String(replay.endS);
     this.card.hidden = false;
@@ -201,6 +206,8 @@ export class RunsPanel {
   private setOther(other: Replay | null): void {
     this.other = other;
     const { shift } = this;
+    this.seekOther();
+    this.onOther(this.otherStore);
     this.views.plots.setOverlay(other === null ? null : { table: other.store.series, shift });
     setText(
       this.overText,
@@ -231,6 +238,7 @@ export class RunsPanel {
     if (replay === null) return;
     const to = Math.min(replay.endS, Math.max(replay.startS, t));
     replay.seek(to);
+    this.seekOther();
     this.slider.value = String(to);
     const since = to - replay.pushS;
     const words =
@@ -245,12 +253,16 @@ export class RunsPanel {
     plots.redraw();
   }
 
-  /** The other run in the view from above, at the same time from the push on. */
+  /** The other run at the same time from the push on. */
+  private seekOther(): void {
+    if (this.replay !== null) this.other?.seek(this.replay.timeS - this.shift);
+  }
+
+  /** The other run in the view from above. */
   private drawOther(ground: GroundCanvas): void {
-    const { replay, other } = this;
-    if (replay === null || other === null) return;
-    const frame = other.frameAt(replay.timeS - this.shift);
-    if (frame === null) return;
+    const { other } = this;
+    const frame = other?.store.frame ?? null;
+    if (other === null || frame === null) return;
     const { muted } = ground.theme;
     const sole = other.store.robot?.sole ?? { lengthM: 0.15, widthM: 0.075 };
     for (const name of ['left_foot', 'right_foot']) {

@@ -200,12 +200,19 @@ class PendulumFigure implements Figure {
   }
 }
 
-export function makePendulum(robot: RobotInfo | null, theme: Theme): Figure {
-  return new PendulumFigure(robot, theme);
+/** What stands for this robot on that plant; `changed` is called when a mesh has arrived later. */
+export async function figureFor(
+  api: Api,
+  plant: string,
+  robot: RobotInfo,
+  theme: Theme,
+  changed: () => void,
+): Promise<Figure> {
+  if (plant === 'lipm') return new PendulumFigure(robot, theme);
+  return loadRobotFigure(api, robot.name, robot.baseLink, changed);
 }
 
-/** Loads a robot's URDF from the server; `changed` is called when a mesh has arrived later. */
-export async function loadRobotFigure(
+async function loadRobotFigure(
   api: Api,
   name: string,
   baseLink: string,

@@ -9,8 +9,9 @@ import type { Store } from '../store';
 import type { Theme } from '../theme';
 import { Aim } from './aim';
 import type { AimListener, AimMode } from './aim';
-import { loadRobotFigure, makePendulum } from './figure';
+import { figureFor } from './figure';
 import type { Figure } from './figure';
+import { Ghost } from './ghost';
 import { Ground } from './ground';
 import { GroundMarks } from './ground_marks';
 import type { Layer } from './ground_marks';
@@ -50,6 +51,7 @@ export class SceneView {
   private readonly marks: GroundMarks;
   private readonly arrow: PushArrow;
   private readonly aim: Aim;
+  private readonly ghost: Ghost;
   private readonly aimLabel = byId('aim-label', HTMLElement);
   private readonly note = byId('scene-note', HTMLElement);
   private figure: Figure | null = null;
@@ -104,7 +106,8 @@ export class SceneView {
       listener,
       () => (this.dirty = true),
     );
-    this.scene.add(this.marks.object, this.arrow.object, this.aim.object);
+    this.ghost = new Ghost(api, () => (this.dirty = true));
+    this.scene.add(this.marks.object, this.arrow.object, this.aim.object, this.ghost.object);
     this.setTheme(theme);
     this.preset('behind');
 
@@ -125,6 +128,7 @@ export class SceneView {
     this.marks.setTheme(theme);
     this.figure?.setTheme(theme);
     this.arrow.setTheme(theme);
+    this.ghost.setTheme(theme);
     this.aim.setTheme(theme);
     this.dirty = true;
   }
@@ -149,6 +153,11 @@ export class SceneView {
 
   setMode(mode: AimMode): void {
     this.aim.mode = mode;
+  }
+
+  /** A second run beside what is shown; null: none. */
+  showGhost(store: Store | null): void {
+    this.ghost.show(store, this.theme);
   }
 
   clearAim(): void {
@@ -179,6 +188,7 @@ export class SceneView {
     this.fit();
     if (this.store.frame !== null) {
       this.figure?.pose(this.store);
+      this.ghost.update();
       this.marks.update(this.store);
     }
     this.marks.object.visible = this.store.frame !== null;
@@ -204,6 +214,7 @@ export class SceneView {
       tick: this.drawnTick,
       frames_drawn: this.framesDrawn,
       figure: this.figure?.state() ?? null,
+      ghost: this.ghost.state(),
       marks: this.marks.state(),
       push_arrow: this.arrow.state(),
       ground: this.ground.state(),
@@ -241,14 +252,10 @@ export class SceneView {
     if (known === null) return;
     this.wanted = wanted;
     this.preset('behind');
-    if (hello.plant === 'lipm') {
-      this.setFigure(makePendulum(known, this.theme));
-      return;
-    }
     const changed = (): void => {
       this.dirty = true;
     };
-    loadRobotFigure(this.api, hello.robot, known.baseLink, changed).then(
+    figureFor(this.api, hello.plant, known, this.theme, changed).then(
       (figure) => {
         if (wanted === this.wanted) this.setFigure(figure);
         else figure.dispose();
