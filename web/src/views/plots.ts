@@ -240,6 +240,8 @@ export class Plots {
     for (const { uplot } of this.plots) uplot.destroy();
     const group = this.groups.find(({ id }) => id === this.groupId);
     const specs = group?.plots ?? [];
+    // Two stand in a row; the lowest of them have the times for all above.
+    const narrow = specs.filter(({ wide }) => wide !== true);
     this.plots = [];
     this.root.replaceChildren();
     specs.forEach((spec, i) => {
@@ -257,7 +259,7 @@ export class Plots {
       host.setAttribute('aria-label', `${spec.title} [${spec.unit}] over time`);
       figure.append(caption, host);
       this.root.append(figure);
-      const times = i >= specs.length - 2 || spec.wide === true;
+      const times = spec.wide === true || narrow.indexOf(spec) >= narrow.length - 2;
       this.plots.push({ spec, host, readout, uplot: this.make(spec, host, i === 0, times) });
       this.observer.observe(host);
     });
