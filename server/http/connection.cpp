@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "server/http/request_head.h"
+
 namespace stagger::server {
 namespace {
 
@@ -47,19 +49,15 @@ std::size_t frame_length(const std::string& bytes) {
 
 }  // namespace
 
-Connection::Head Connection::take_in() {
+Connection::Request Connection::take_in() {
   if (start_ > 0) {
     std::memmove(buffer_.data(), buffer_.data() + start_, end_ - start_);
     end_ -= std::exchange(start_, 0);
-    searched_ = 0;
+    searched_ = wanted_ = 0;
   }
   for (;;) {
-    // The end may begin in what came before.
-    const std::size_t from = searched_ < 3 ? 0 : searched_ - 3;
-    const std::string_view come(buffer_.data() + from, end_ - from);
-    searched_ = end_;
-    if (come.find("\r\n\r\n") != std::string_view::npos) return Head::complete;
-    if (end_ == buffer_.size()) return Head::complete;
+    const Request request = look_at_buffer();
+    if (request != Request::incomplete) return request;
     const ssize_t count = recv(socket_, buffer_.data() + end_, buffer_.size() - end_, MSG_DONTWAIT);
     if (count > 0) {
       end_ += static_cast<std::size_t>(count);
@@ -67,9 +65,28 @@ Connection::Head Connection::take_in() {
       continue;
     } else {
       const bool nothing_yet = count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK);
-      return nothing_yet ? Head::incomplete : Head::gone;
+      if (nothing_yet) return Request::incomplete;
+      return wanted_ > 0 ? Request::begun : Request::gone;  // a body cut short is worth an answer
     }
   }
+}
+
+Connection::Request Connection::look_at_buffer() {
+  constexpr std::string_view head_end = "\r\n\r\n";
+  if (wanted_ == 0) {
+    const std::string_view come(buffer_.data(), end_);
+    // The end may begin in what came before.
+    const std::size_t found = come.find(head_end, searched_ < 3 ? 0 : searched_ - 3);
+    searched_ = end_;
+    if (found == std::string_view::npos) {
+      return end_ == buffer_.size() ? Request::begun : Request::incomplete;
+    }
+    const std::size_t head = found + head_end.size();
+    const auto body = body_length(come.substr(0, head));
+    if (!body || *body > buffer_.size() - head) return Request::begun;
+    wanted_ = head + *body;
+  }
+  return end_ >= wanted_ ? Request::whole : Request::incomplete;
 }
 
 void Connection::begin_request() { request_begin_ = Clock::now(); }
@@ -133,7 +150,7 @@ ssize_t Connection::read_some(char* data, std::size_t size) {
     if (count <= 0) return count;
     start_ = 0;
     end_ = static_cast<std::size_t>(count);
-    searched_ = 0;
+    searched_ = wanted_ = 0;
   }
   const std::size_t count = std::min(size, end_ - start_);
   std::memcpy(data, buffer_.data() + start_, count);

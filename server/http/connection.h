@@ -29,13 +29,14 @@ class Connection {
   Connection& operator=(const Connection&) = delete;
 
   int socket() const { return socket_; }
-  enum class Head : std::uint8_t {
+  enum class Request : std::uint8_t {
     incomplete,
-    complete,  ///< all of it, or more than the buffer holds: the library is to look at it
-    gone       ///< the client has left
+    whole,  ///< with its body
+    begun,  ///< its head, and nobody knows but by reading when the rest will come
+    gone    ///< the client has left
   };
-  /// Takes in what has come of a request's head. Never waits.
-  Head take_in();
+  /// Takes in what has come of a request, as far as the buffer holds it. Never waits.
+  Request take_in();
   /// A request is about to be read: from now on the rest of it has 30 s to arrive.
   void begin_request();
   /// In a request since at least then, and waiting for the client right now. Any thread.
@@ -71,6 +72,7 @@ class Connection {
   void end_writing() const;
 
  private:
+  Request look_at_buffer();
   ssize_t read_some(char* data, std::size_t size);
   bool send_all(const char* data, std::size_t size);
 
@@ -82,6 +84,7 @@ class Connection {
   std::size_t start_ = 0;
   std::size_t end_ = 0;
   std::size_t searched_ = 0;   ///< of the buffer: no end of a head in there
+  std::size_t wanted_ = 0;     ///< in the buffer for a whole request; 0 while that is not known
   std::size_t swallowed_ = 0;  ///< [bytes]
   int requests_ = 0;
   std::atomic<bool> websocket_{false};

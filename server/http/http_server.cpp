@@ -34,6 +34,9 @@ constexpr std::size_t max_upload = 32 << 20;
 constexpr int max_uploads = 2;  // at a time: they are held in memory
 constexpr std::size_t max_form_parts = 256;
 constexpr std::size_t request_threads = 64;
+// Of their own for bodies that are still on their way: whoever sends one slowly keeps nobody
+// waiting who sends a whole request.
+constexpr std::size_t body_threads = 16;
 constexpr std::size_t max_waiting_requests = 256;
 // For those who send several requests at once on one connection.
 constexpr std::size_t threads_for_more = 2;
@@ -65,7 +68,8 @@ std::size_t raise_descriptor_limit() {
 
 /// Connections that may be idle, so that descriptors are left for the others and for files.
 std::size_t reception_room(std::size_t stream_clients) {
-  const std::size_t others = stream_clients + request_threads + max_waiting_requests + 128;
+  const std::size_t others =
+      stream_clients + request_threads + body_threads + 2 * max_waiting_requests + 128;
   const std::size_t descriptors = raise_descriptor_limit();
   const std::size_t left = descriptors > others ? descriptors - others : 0;
   return std::clamp<std::size_t>(left, 64, max_idle_connections);
@@ -147,11 +151,17 @@ class AtOnce final : public httplib::TaskQueue {
 class LibraryServer final : public httplib::Server {
  public:
   explicit LibraryServer(std::size_t stream_clients)
-      : pool_({request_threads + stream_clients, threads_for_more, max_waiting_requests},
-              [this](const ConnectionPtr& connection) { serve(connection); }),
+      : whole_(request_threads + stream_clients, *this),
+        begun_(body_threads, *this),
         reception_(
-            reception_room(stream_clients), [this](auto connection) { hand_over(connection); },
-            [this] { make_room(); }) {
+            reception_room(stream_clients),
+            [this](const ConnectionPtr& connection, Connection::Request request) {
+              hand_over(connection, request);
+            },
+            [this] {
+              whole_.make_room();
+              begun_.make_room();
+            }) {
     new_task_queue = [] { return new AtOnce; };
   }
 
@@ -160,8 +170,10 @@ class LibraryServer final : public httplib::Server {
   /// Ends all connections and returns when all threads have ended. May be called again.
   void end() {
     reception_.stop();
-    connections_.shut_down_all();
-    pool_.stop();
+    whole_.connections.shut_down_all();
+    begun_.connections.shut_down_all();
+    whole_.pool.stop();
+    begun_.pool.stop();
   }
 
   std::atomic<std::size_t> streams{0};
@@ -180,42 +192,68 @@ class LibraryServer final : public httplib::Server {
     return true;
   }
 
-  // In the reception's thread.
-  void hand_over(const ConnectionPtr& connection) {
-    if (const auto left_out = pool_.add(connection)) (*left_out)->try_write(too_busy);
+  /// Threads and those whom they serve.
+  struct Desk {
+    Desk(std::size_t threads, LibraryServer& server)
+        : pool({threads, threads_for_more, max_waiting_requests},
+               [this, &server](const ConnectionPtr& connection) {
+                 server.serve(connection, connections);
+               }) {}
+
+    // In the reception's thread.
+    void make_room() {
+      const std::size_t waiting = pool.waiting();
+      if (waiting == 0) return;
+      const auto since = std::chrono::steady_clock::now() - slow_request;
+      const std::size_t cut = connections.cut_slowest(waiting, since);
+      if (cut > 0) spdlog::warn("cut off {} slow clients, others wait for their threads", cut);
+    }
+
+    ConnectionRegistry connections;
+    WorkerPool<ConnectionPtr> pool;
+  };
+
+  Desk& desk_for(Connection::Request request) {
+    return request == Connection::Request::whole ? whole_ : begun_;
   }
 
   // In the reception's thread.
-  void make_room() {
-    const std::size_t waiting = pool_.waiting();
-    if (waiting == 0) return;
-    const auto since = std::chrono::steady_clock::now() - slow_request;
-    const std::size_t cut = connections_.cut_slowest(waiting, since);
-    if (cut > 0) spdlog::warn("cut off {} slow clients, others wait for their threads", cut);
+  void hand_over(const ConnectionPtr& connection, Connection::Request request) {
+    if (const auto left_out = desk_for(request).pool.add(connection)) {
+      (*left_out)->try_write(too_busy);
+    }
   }
 
-  enum class Next : std::uint8_t { wait, again, drain, close };
+  enum class Next : std::uint8_t { await_request, drain, close };
 
-  void serve(const ConnectionPtr& connection) {
+  void serve(const ConnectionPtr& connection, ConnectionRegistry& connections) {
     Next next = Next::close;
     {
-      const ConnectionRegistry::Entry entry(connections_, *connection);
+      const ConnectionRegistry::Entry entry(connections, *connection);
       this_connection = {connection.get()};
       next = serve_request(*connection);
       if (this_connection.holds_stream_place) --streams;
       this_connection = {};
     }
-    if (next == Next::wait) {
-      reception_.await_request(connection);
-    } else if (next == Next::again) {
-      if (pool_.add_more(connection)) connection->try_write(too_busy);
+    if (next == Next::await_request) {
+      await_request(connection);
     } else if (next == Next::drain) {
       connection->end_writing();
       reception_.drain(connection);
     }
   }
 
-  /// One that has come. Whoever has sent more at once lets others go first.
+  /// The next one. Whoever has sent it already lets others go first.
+  void await_request(const ConnectionPtr& connection) {
+    const Connection::Request request = connection->take_in();
+    if (request == Connection::Request::incomplete) {
+      reception_.await_request(connection);
+    } else if (request != Connection::Request::gone) {
+      if (desk_for(request).pool.add_more(connection)) connection->try_write(too_busy);
+    }
+  }
+
+  /// One that has come, at least its head.
   Next serve_request(Connection& connection) {
     std::string remote;
     std::string local;
@@ -232,11 +270,11 @@ class LibraryServer final : public httplib::Server {
                                         closed, nullptr, &upgraded);
     if (upgraded) return Next::close;
     if (!served || closed || last || this_connection.has_failed) return Next::drain;
-    return connection.take_in() == Connection::Head::complete ? Next::again : Next::wait;
+    return Next::await_request;
   }
 
-  ConnectionRegistry connections_;
-  WorkerPool<ConnectionPtr> pool_;
+  Desk whole_;
+  Desk begun_;
   Reception reception_;
 };
 

@@ -47,7 +47,7 @@ void Reception::add(const ConnectionPtr& connection, bool draining) {
     const std::lock_guard lock(mutex_);
     if (stopped_) return;
     if (guests_.size() >= room_) oldest = remove(guests_.begin());
-    const auto patience = draining ? drain_patience : head_patience;
+    const auto patience = draining ? drain_patience : request_patience;
     const auto guest = guests_.emplace(Clock::now() + patience, Guest{connection, draining});
     by_socket_[socket] = guest;
     // What has come already is told at once.
@@ -78,7 +78,7 @@ void Reception::run() {
 
 void Reception::look_at(int socket) {
   Guest leaving;
-  bool complete = false;
+  auto request = Connection::Request::gone;
   {
     const std::lock_guard lock(mutex_);
     const auto found = by_socket_.find(socket);
@@ -87,13 +87,12 @@ void Reception::look_at(int socket) {
     if (guest.draining) {
       if (guest.connection->swallow()) return;
     } else {
-      const Connection::Head head = guest.connection->take_in();
-      if (head == Connection::Head::incomplete) return;
-      complete = head == Connection::Head::complete;
+      request = guest.connection->take_in();
+      if (request == Connection::Request::incomplete) return;
     }
     leaving = remove(found->second);
   }
-  if (complete) serve_(std::move(leaving.connection));
+  if (request != Connection::Request::gone) serve_(std::move(leaving.connection), request);
 }
 
 void Reception::dismiss_the_late() {

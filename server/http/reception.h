@@ -16,16 +16,17 @@
 namespace stagger::server {
 
 /// A thread for each connection would be at the mercy of whoever opens connections and says
-/// nothing, or a byte a minute. Here such a client costs a descriptor; a thread is asked for when
-/// the head of a request has come in. When the room is full, who has waited longest goes: an honest
-/// client has spoken long before.
+/// nothing, or a byte a minute. Here such a client costs a descriptor; a thread is asked for when a
+/// request has come in, with its body where that is short. When the room is full, who has waited
+/// longest goes: an honest client has spoken long before.
 class Reception {
  public:
   using ConnectionPtr = std::shared_ptr<Connection>;
-  using Serve = std::function<void(ConnectionPtr)>;
+  /// The request is whole or begun.
+  using Serve = std::function<void(ConnectionPtr, Connection::Request)>;
 
-  /// For the head of a request, from the connection's opening or from the last answer.
-  static constexpr std::chrono::seconds head_patience{10};
+  /// For a request, from the connection's opening or from the last answer.
+  static constexpr std::chrono::seconds request_patience{10};
   /// For the rest of what a client sends whose request has been cut short by an answer.
   static constexpr std::chrono::seconds drain_patience{1};
   /// How often `each_turn` is called at least.

@@ -27,6 +27,7 @@ const all = {
   nothing: () => sleep(seconds * 1000),
   slow_heads: lasting(attacks.slowHeads),
   slow_bodies: lasting(attacks.slowBodies),
+  slow_long_bodies: lasting(attacks.slowLongBodies),
   slow_chunks: lasting(attacks.slowChunks),
   slow_readers: lasting(attacks.slowReaders),
   silent: lasting((server) => attacks.silent(server, 3 * count)),

@@ -66,13 +66,16 @@ export const slowHeads = (server, count) =>
   crowd(server, count, (socket) => socket.write(`GET / HTTP/1.1\r\n${host(server)}X: `),
     (socket) => socket.write('x'));
 
-/** Bodies that never end, a byte at a time. */
-export const slowBodies = (server, count) =>
+const slowBodiesOf = (length) => (server, count) =>
   crowd(server, count,
     (socket) =>
       socket.write(`POST /api/v1/pushes HTTP/1.1\r\n${host(server)}` +
-        'Content-Type: application/json\r\nContent-Length: 100000\r\n\r\n{'),
+        `Content-Type: application/json\r\nContent-Length: ${length}\r\n\r\n{`),
     (socket) => socket.write(' '));
+
+/** Bodies that never end, a byte at a time: such as any command could have, and longer ones. */
+export const slowBodies = slowBodiesOf(1000);
+export const slowLongBodies = slowBodiesOf(100_000);
 
 /** Chunks that never end. */
 export const slowChunks = (server, count) =>

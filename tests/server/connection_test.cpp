@@ -96,25 +96,63 @@ TEST(Connection, APlainReadTakesWhatIsThere) {
   EXPECT_EQ(connection.read(buffer, 8), 1);
 }
 
-TEST(Connection, KnowsWhenAHeadIsComplete) {
+TEST(Connection, KnowsWhenARequestIsWhole) {
   const Pair pair;
   Connection connection(pair.ours());
-  EXPECT_EQ(connection.take_in(), Connection::Head::incomplete);
+  EXPECT_EQ(connection.take_in(), Connection::Request::incomplete);
   pair.client_sends("GET / HTTP/1.1\r\nHost: x\r\n\r");
-  EXPECT_EQ(connection.take_in(), Connection::Head::incomplete);
+  EXPECT_EQ(connection.take_in(), Connection::Request::incomplete);
   pair.client_sends("\nGET /two HTTP/1.1\r\n\r\n");
-  EXPECT_EQ(connection.take_in(), Connection::Head::complete);
+  EXPECT_EQ(connection.take_in(), Connection::Request::whole);
   char buffer[28];
   connection.begin_request();
   EXPECT_EQ(connection.read(buffer, 27), 27);
-  EXPECT_EQ(connection.take_in(), Connection::Head::complete) << "the next one has come already";
+  EXPECT_EQ(connection.take_in(), Connection::Request::whole) << "the next one has come already";
 }
 
 TEST(Connection, AHeadThatIsTooLongIsForTheLibraryToRefuse) {
   const Pair pair;
   Connection connection(pair.ours());
   pair.client_sends(std::string(20000, 'x'));
-  EXPECT_EQ(connection.take_in(), Connection::Head::complete);
+  EXPECT_EQ(connection.take_in(), Connection::Request::begun);
+}
+
+TEST(Connection, AShortBodyBelongsToTheRequest) {
+  const Pair pair;
+  Connection connection(pair.ours());
+  const std::string head = "POST / HTTP/1.1\r\nContent-Length: 3\r\n\r\n";
+  pair.client_sends(head + "{");
+  EXPECT_EQ(connection.take_in(), Connection::Request::incomplete);
+  pair.client_sends("}");
+  EXPECT_EQ(connection.take_in(), Connection::Request::incomplete);
+  pair.client_sends("\n" + head + "[]\nGET / HTTP/1.1\r\n");
+  EXPECT_EQ(connection.take_in(), Connection::Request::whole);
+  std::string text(head.size() + 3, '\0');
+  for (const char* const body : {"{}\n", "[]\n"}) {
+    connection.begin_request();
+    EXPECT_EQ(connection.read(text.data(), text.size()), static_cast<ssize_t>(text.size()));
+    EXPECT_EQ(text, head + body);
+    EXPECT_EQ(connection.take_in(), body[0] == '{' ? Connection::Request::whole
+                                                   : Connection::Request::incomplete);
+  }
+}
+
+TEST(Connection, ALongBodyAndOneOfUnknownLengthAreLeftToTheirReader) {
+  for (const char* line : {"Content-Length: 16384", "Transfer-Encoding: chunked"}) {
+    const Pair pair;
+    Connection connection(pair.ours());
+    pair.client_sends(std::string("POST / HTTP/1.1\r\n") + line + "\r\n\r\n");
+    EXPECT_EQ(connection.take_in(), Connection::Request::begun) << line;
+  }
+}
+
+TEST(Connection, ABodyThatIsCutShortIsLeftToItsReader) {
+  Pair pair;
+  Connection connection(pair.ours());
+  pair.client_sends("POST / HTTP/1.1\r\nContent-Length: 3\r\n\r\n{");
+  EXPECT_EQ(connection.take_in(), Connection::Request::incomplete);
+  pair.client_leaves();
+  EXPECT_EQ(connection.take_in(), Connection::Request::begun);
 }
 
 TEST(Connection, AHeadThatIsCutShortIsGone) {
@@ -122,7 +160,7 @@ TEST(Connection, AHeadThatIsCutShortIsGone) {
   Connection connection(pair.ours());
   pair.client_sends("GET /");
   pair.client_leaves();
-  EXPECT_EQ(connection.take_in(), Connection::Head::gone);
+  EXPECT_EQ(connection.take_in(), Connection::Request::gone);
 }
 
 TEST(Connection, AClientThatTakesNothingStallsTheWrite) {

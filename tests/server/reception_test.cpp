@@ -60,7 +60,7 @@ class ReceptionTest : public ::testing::Test {
   std::condition_variable changed_;
   std::vector<Reception::ConnectionPtr> served_;
   std::atomic<int> turns_{0};
-  Reception reception_{2, [this](auto connection) { serve(std::move(connection)); },
+  Reception reception_{2, [this](auto connection, auto) { serve(std::move(connection)); },
                        [this] { ++turns_; }};
 };
 
