@@ -92,6 +92,7 @@ void validate_ranges(const Parameters& p) {
   within("swing_acceleration", p.swing_acceleration, 1e-3, unlimited, "m/s^2");
   within("contact_load", p.contact_load, 0.0, unlimited, "N");
   within("landing_patience", p.landing_patience, 0.0, unlimited, "s");
+  within("landing_speed", p.landing_speed, 0.0, unlimited, "m/s");
 
   within("hip.torque", p.hip.torque, 0.0, unlimited, "N m");
   within("hip.inertia", p.hip.inertia, 1e-6, unlimited, "kg m^2");

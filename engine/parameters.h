@@ -94,6 +94,9 @@ struct Parameters {
 
   double contact_load = 20.0;      ///< a swing foot that carries more has landed [N]
   double landing_patience = 0.10;  ///< how long single support waits for a late landing [s]
+  /// Of a foot that is late, down to where the ground is [m/s]. The DCM runs away meanwhile: at 0.1
+  /// steps that came down a centimetre deeper, off a tile, threw h1_2 to the side.
+  double landing_speed = 0.2;
 
   HipParameters hip;
   Strategies strategies;

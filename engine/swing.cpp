@@ -100,8 +100,8 @@ FootTarget SwingTrajectory::at(double time) const {
   foot.yaw_acceleration = ground.second.z() / (d * d);
   foot.in_contact = false;
   if (time > duration_) {  // the ground is lower than it was thought: feel for it
-    foot.position.z() -= landing_speed * (time - duration_);
-    foot.velocity << 0.0, 0.0, -landing_speed;
+    foot.position.z() -= landing_speed_ * (time - duration_);
+    foot.velocity << 0.0, 0.0, -landing_speed_;
     foot.acceleration.setZero();
     foot.yaw_velocity = 0.0;
     foot.yaw_acceleration = 0.0;

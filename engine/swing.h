@@ -14,6 +14,11 @@ double least_time(const Vec2& way, const Vec2& velocity, double duration, double
 
 class SwingTrajectory {
  public:
+  /// Goes on down at `landing_speed` [m/s] from when it should have landed until someone sees it
+  /// land.
+  explicit SwingTrajectory(double landing_speed = 0.0) : landing_speed_(landing_speed) {}
+  void set_landing_speed(double landing_speed) { landing_speed_ = landing_speed; }
+
   /// Lift-off at rest from `start`; lands on `target` (z: the ground there) after `duration` [s],
   /// with the sole `height` above the higher of the two ends at its highest.
   void start(const FootPose& start, const FootPose& target, double duration, double height);
@@ -25,14 +30,11 @@ class SwingTrajectory {
   /// On the way since the last of these two it rises by `height` as it did after lift-off.
   void lift(double height);
 
-  /// Target of the foot at `time` since lift-off [s]. After `duration` the foot goes on down at
-  /// `landing_speed` until someone sees it land.
+  /// Target of the foot at `time` since lift-off [s].
   FootTarget at(double time) const;
 
   double duration() const { return duration_; }
   double landing_height() const { return lift_.back(); }
-
-  static constexpr double landing_speed = 0.1;  ///< [m/s]
 
  private:
   using Planar = Eigen::Vector3d;  ///< x, y, yaw
@@ -44,6 +46,7 @@ class SwingTrajectory {
   std::array<double, 7> lift_{};  ///< degree 6, likewise
   double since_ = 0.0;            ///< lift-off or last replanning [s]
   double duration_ = 1.0;
+  double landing_speed_;
 };
 
 }  // namespace stagger::engine

@@ -53,7 +53,8 @@ WalkingEngine::WalkingEngine(const Parameters& parameters, const Measurement& st
       pattern_(step_pattern({}, reach, parameters)),
       coming_{pattern_, pattern_},
       measured_(start),
-      standing_(start.feet) {
+      standing_(start.feet),
+      swing_(parameters.landing_speed) {
   validate(start);
   stance_ = footstep(start.feet[index(Side::left)], Side::left);
   landed_ = footstep(start.feet[index(Side::right)], Side::right);
@@ -108,6 +109,7 @@ void WalkingEngine::retune() {
   recovery_ = waiting_->recovery;
   lqg_.retune(waiting_->lqg);
   machine_.set_waits(parameters_.t_init, parameters_.landing_patience);
+  swing_.set_landing_speed(parameters_.landing_speed);
   waiting_.reset();
   // After a list the gait is still the old one.
   if (machine_.state() == WalkingState::idle) set_pattern(wish_, 0);

@@ -60,6 +60,7 @@ engine::Parameters engine_parameters(const Robot& robot, PlantKind plant,
   p.time_constant *= time;
   p.contact_load *= scale.mass;
   p.landing_patience *= time;
+  p.landing_speed *= scale.length / time;
   if (plant == PlantKind::bullet) {
     const WholeBodyGains gains = whole_body_gains(robot);
     // The whole-body controller keeps its corner forces this far inside the sole.

@@ -98,6 +98,9 @@ constexpr std::array table{
         {"gait.landing_patience", "s", "how long single support waits for a late landing"},
         Between{0.0, 1.0}, [](auto& p) -> auto& { return p.engine.landing_patience; }),
     row(
+        {"gait.landing_speed", "m/s", "of a late foot on its way down to the ground"},
+        Between{0.0, 2.0}, [](auto& p) -> auto& { return p.engine.landing_speed; }),
+    row(
         {"step.max_length", "m", "longest step forward"}, OfDefault{0.1, 2.0},
         [](auto& p) -> auto& { return p.engine.max_step_length; }),
     row(

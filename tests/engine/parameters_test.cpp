@@ -75,6 +75,7 @@ const std::vector<Field>& fields() {
       {"swing_acceleration", [](Parameters& p) -> double& { return p.swing_acceleration; }, 0.0},
       {"contact_load", [](Parameters& p) -> double& { return p.contact_load; }, -1.0},
       {"landing_patience", [](Parameters& p) -> double& { return p.landing_patience; }, -0.1},
+      {"landing_speed", [](Parameters& p) -> double& { return p.landing_speed; }, -0.1},
       {"hip.torque", [](Parameters& p) -> double& { return p.hip.torque; }, -1.0},
       {"hip.inertia", [](Parameters& p) -> double& { return p.hip.inertia; }, 0.0},
       {"hip.angle", [](Parameters& p) -> double& { return p.hip.angle; }, -0.1},

@@ -132,8 +132,8 @@ TEST(Connection, AShortBodyBelongsToTheRequest) {
     connection.begin_request();
     EXPECT_EQ(connection.read(text.data(), text.size()), static_cast<ssize_t>(text.size()));
     EXPECT_EQ(text, head + body);
-    EXPECT_EQ(connection.take_in(), body[0] == '{' ? Connection::Request::whole
-                                                   : Connection::Request::incomplete);
+    EXPECT_EQ(connection.take_in(),
+              body[0] == '{' ? Connection::Request::whole : Connection::Request::incomplete);
   }
 }
 
