@@ -1,5 +1,4 @@
 #include <chrono>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <numeric>
@@ -9,6 +8,7 @@
 #include "server/cli/commands.h"
 #include "server/cli/interrupt.h"
 #include "server/cli/list.h"
+#include "server/cli/output_file.h"
 #include "server/cli/progress_line.h"
 #include "server/json/gait_json.h"
 #include "server/json/limits_json.h"
@@ -131,28 +131,6 @@ sim::LimitsSpec spec_of(const LimitsOptions& options, const sim::SimulationConfi
   return spec;
 }
 
-/// A file that is opened before the work: nobody wants to wait for what cannot be written.
-class OutputFile {
- public:
-  OutputFile(const std::string& option, const std::string& name) : option_(option), name_(name) {
-    if (name.empty()) return;
-    file_.open(name, std::ios::binary);
-    if (!file_) fail();
-  }
-  void write(const std::string& text) {
-    if (name_.empty()) return;
-    file_ << text;
-    file_.close();
-    if (!file_) fail();
-  }
-
- private:
-  [[noreturn]] void fail() const { throw std::runtime_error(option_ + ": cannot write " + name_); }
-  std::string option_;
-  std::string name_;
-  std::ofstream file_;
-};
-
 std::string today() {
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   std::tm parts{};
@@ -170,8 +148,8 @@ int limits_command(const LimitsOptions& options, const Folders& folders) {
   if (world.robot == nullptr) return exit_usage;
   const auto& robot = world.robot;
   const sim::LimitsSpec spec = spec_of(options, world);
-  OutputFile out("--out", options.out);
-  OutputFile markdown("--markdown", options.markdown);
+  const OutputFile out("--out", options.out);
+  const OutputFile markdown("--markdown", options.markdown);
 
   listen_for_interrupts();
   std::vector<sim::Limit> limits;

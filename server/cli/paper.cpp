@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <numbers>
 #include <sstream>
-#include <stdexcept>
 
 #include "server/cli/cli.h"
 #include "server/cli/commands.h"
+#include "server/cli/output_file.h"
 #include "server/json/paper_json.h"
 #include "server/report/paper_report.h"
 #include "server/report/paper_table.h"
@@ -87,31 +86,23 @@ int paper_command(const PaperOptions& options) {
     std::cerr << "stagger: " << text << '\n';
     return exit_usage;
   }
-  // Before the work: nobody wants to wait for a report that cannot be written.
-  std::ofstream report;
-  const fs::path file = fs::path(options.out) / "report.html";
+  std::string file;
   if (!options.out.empty()) {
     std::error_code error;
     fs::create_directories(options.out, error);
-    report.open(file, std::ios::binary);
-    if (!report) throw std::runtime_error("--out: cannot write " + file.string());
+    file = (fs::path(options.out) / "report.html").string();
   }
+  const OutputFile report("--out", file);
 
   const sim::PaperResults results = sim::run_paper(request_of(options));
-  if (report.is_open()) {
-    report << paper_report(results, command_of(options));
-    report.close();
-    if (!report) throw std::runtime_error("--out: cannot write " + file.string());
-  }
+  if (!file.empty()) report.write(paper_report(results, command_of(options)));
   if (options.json) {
     std::cout << paper_json(results).dump(2) << '\n';
   } else {
     std::cout << to_columns(paper_table(results));
   }
   // Beside JSON, not within it.
-  if (!options.out.empty()) {
-    (options.json ? std::cerr : std::cout) << "report: " << file.string() << '\n';
-  }
+  if (!file.empty()) (options.json ? std::cerr : std::cout) << "report: " << file << '\n';
   return exit_ok;
 }
 

@@ -195,10 +195,18 @@ test('a gate that is not passed ends with 1', async () => {
 });
 
 test('Ctrl-C ends a search at once, and says so', async () => {
-  const { code, stdout, stderr } = await interrupted(['limits', '--robot', 'kasaei']);
-  assert.equal(code, 130);
-  assert.equal(stdout, '');
-  assert.match(stderr, /stopped at 0\.1 m\/s after \d+ trials/);
+  const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'limits-'));
+  try {
+    const file = path.join(folder, 'limits.json');
+    fs.writeFileSync(file, 'of the last search');
+    const { code, stdout, stderr } = await interrupted(['limits', '--robot', 'kasaei', '--out', file]);
+    assert.equal(code, 130);
+    assert.equal(stdout, '');
+    assert.match(stderr, /stopped at 0\.1 m\/s after \d+ trials/);
+    assert.equal(fs.readFileSync(file, 'utf8'), 'of the last search');
+  } finally {
+    fs.rmSync(folder, { recursive: true });
+  }
 });
 
 test('limits refuses naming option, value and range', async () => {
