@@ -53,7 +53,7 @@ TEST(FullBodyTerrain, TilesOfTwoCentimetresAreWalkedForAMinute) {
 }
 
 // A step down from a tile comes late, and the DCM runs away meanwhile. With a foot that feels for
-// the ground at half the speed h1_2 falls in each of these.
+// the ground at 0.1 m/s h1_2 falls in each of these.
 TEST(FullBodyTerrain, StepsDownFromTilesAreQuickEnoughForARobotOnLongFeet) {
   const auto h1_2 = load_robot("robots/h1_2");
   TerrainParameters terrain;

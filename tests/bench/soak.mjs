@@ -3,10 +3,9 @@
 // the robot fell without a push, memory grew, recordings took more than their quota, or a question failed. Not a
 // test: it takes half an hour.
 //   node tests/bench/soak.mjs [--hours 6] [--quota-mb 200] [--seed 1]
-// Memory is the median of the process's resident set while a robot is there, over the last sixth of the run against
-// that over the second one, and of that the mean of all robots: one robot's worlds are larger than another's by more
-// than what is looked for, and the sixths do not hold equal shares of them. By the second one each kind of client has
-// been there, and what is kept of the past is full.
+// Memory is the median of the process's resident set over the last simulated hour against that over the second one:
+// by then each robot and each kind of client has been there, and what is kept of the past is full. That of each robot
+// in each sixth of the run stands beside it.
 import fs from 'node:fs';
 import net from 'node:net';
 import os from 'node:os';
@@ -195,18 +194,18 @@ try {
   clients.forEach(leave);
   const end = await server.stop();
 
-  /** Of each sixth of the run. */
-  const medians = (column, of = robots) =>
-    [...Array(6).keys()].map((sixth) => {
-      const some = samples.filter((one) => Math.floor((6 * one.at) / wanted) === sixth && of.includes(one.robot));
-      const sorted = some.map((one) => one[column]).sort((x, y) => x - y);
-      return sorted[Math.floor(sorted.length / 2)];
-    });
-  const rss = Object.fromEntries(robots.map((one) => [one, medians('rss', [one])]));
-  const grown = Object.values(rss)
-    .map((mb) => mb[5] - mb[1])
-    .filter((mb) => !Number.isNaN(mb)); // a short run has not had each robot twice
-  const growth = grown.reduce((sum, mb) => sum + mb, 0) / grown.length;
+  const median = (column, wants) => {
+    const some = samples.filter(wants).map((sample) => sample[column]).sort((a, b) => a - b);
+    return some[Math.floor(some.length / 2)];
+  };
+  const hour = Math.min(3600, wanted / 6);
+  const early = ({ at }) => at >= hour && at < 2 * hour;
+  const late = ({ at }) => at >= wanted - hour;
+  const rss = { second_hour: median('rss', early), last_hour: median('rss', late) };
+  const sixths = (of) =>
+    [...Array(6).keys()].map((sixth) =>
+      median('rss', ({ at, robot: one }) => one === of && Math.floor((6 * at) / wanted) === sixth),
+    );
   const result = {
     simulated_h: world.simulated / 3600,
     seconds,
@@ -214,8 +213,12 @@ try {
     seen,
     falls_without_push: fallsWithoutPush,
     failures,
-    rss_mb: { ...rss, growth },
-    descriptors: medians('descriptors'),
+    rss_mb: {
+      ...rss,
+      growth: rss.last_hour - rss.second_hour,
+      sixths: Object.fromEntries(robots.map((one) => [one, sixths(one)])),
+    },
+    descriptors: { second_hour: median('descriptors', early), last_hour: median('descriptors', late) },
     recordings_mb: { most: disk, quota: quotaMb },
     exit_code: end.code,
   };
