@@ -1,6 +1,7 @@
 #include "engine/swing.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace stagger::engine {
@@ -17,8 +18,11 @@ Eigen::Vector3d planar_near(const FootPose& target, double from_yaw) {
   return to;
 }
 
-// Height of the Bezier curve with all but its middle one of seven control points at zero.
-constexpr double middle_control_of_unit_peak = 3.2;  // 1 / (20 / 2^6)
+// Of seven control points the middle one alone is the height: the curve is highest half-way, with
+// this share of it.
+constexpr double middle_weight = 20.0 / 64.0;
+// The middle one and the one before it are: highest here, where d/ds 5 s^2 (1 - s)^3 (3 + s) = 0.
+constexpr double early_peak = std::numbers::sqrt2 - 1.0;
 
 constexpr double least_span = 1e-6;  // [s]
 
@@ -44,14 +48,21 @@ void SwingTrajectory::start(const FootPose& start, const FootPose& target, doubl
   duration_ = duration;
   const double z0 = start.position.z();
   const double z1 = target.position.z();
-  lift_ = {z0, z0, z0, z0, z1, z1, z1};
-  lift(height);
+  // It comes up with an acceleration, while its way over the ground begins with a jerk alone: a toe
+  // that is dragged before it is up catches at edges of a few millimetres.
+  const double peak = std::max(z0, z1) + height;
+  const double rest = 1.0 - early_peak;
+  const double start_weight = std::pow(rest, 5) * (rest + 6.0 * early_peak);
+  const double both_weight = 5.0 * early_peak * early_peak * std::pow(rest, 3) * (3.0 + early_peak);
+  const double end_weight = 1.0 - start_weight - both_weight;
+  const double both = (peak - start_weight * z0 - end_weight * z1) / both_weight;
+  lift_ = {z0, z0, both, both, z1, z1, z1};
 }
 
 void SwingTrajectory::lift(double height) {
   const double mean = 0.5 * (lift_.front() + lift_.back());
   const double peak = std::max(lift_.front(), lift_.back()) + height;
-  lift_[3] = mean + middle_control_of_unit_peak * (peak - mean);
+  lift_[3] = mean + (peak - mean) / middle_weight;
 }
 
 void SwingTrajectory::retarget(const FootPose& target, double time, double duration) {

@@ -19,15 +19,16 @@ class SwingTrajectory {
   explicit SwingTrajectory(double landing_speed = 0.0) : landing_speed_(landing_speed) {}
   void set_landing_speed(double landing_speed) { landing_speed_ = landing_speed; }
 
-  /// Lift-off at rest from `start`; lands on `target` (z: the ground there) after `duration` [s],
-  /// with the sole `height` above the higher of the two ends at its highest.
+  /// Lift-off at rest from `start`, up before it goes forward; lands on `target` (z: the ground
+  /// there) after `duration` [s], with the sole `height` above the higher of the two ends at its
+  /// highest.
   void start(const FootPose& start, const FootPose& target, double duration, double height);
 
   /// New landing place, and a new landing time `duration` since lift-off; keeps the present
   /// position, velocity and acceleration. `time` is now, since lift-off [s].
   void retarget(const FootPose& target, double time, double duration);
 
-  /// On the way since the last of these two it rises by `height` as it did after lift-off.
+  /// After retarget(): on the way from there it rises by `height` once more.
   void lift(double height);
 
   /// Target of the foot at `time` since lift-off [s].

@@ -256,6 +256,19 @@ constexpr std::array table{
         {"body.swing_damping", "1/s", "of the swing foot", number, next_step, Of::bullet},
         OfDefault{0.1, 10.0}, [](auto& p) -> auto& { return p.gains.swing_damping; }),
     row(
+        {"body.swing_turn_stiffness", "1/s^2", "of the orientation of the swing foot", number,
+         next_step, Of::bullet},
+        OfDefault{0.01, 10.0}, [](auto& p) -> auto& { return p.gains.swing_turn_stiffness; }),
+    row(
+        {"body.swing_turn_damping", "1/s", "of the orientation of the swing foot", number,
+         next_step, Of::bullet},
+        OfDefault{0.1, 10.0}, [](auto& p) -> auto& { return p.gains.swing_turn_damping; }),
+    row(
+        {"body.swing_turn_acceleration_limit", "rad/s^2",
+         "greatest angular acceleration asked of the swing foot", number, next_step, Of::bullet},
+        OfDefault{0.1, 10.0},
+        [](auto& p) -> auto& { return p.gains.swing_turn_acceleration_limit; }),
+    row(
         {"body.swing_acceleration_limit", "m/s^2", "greatest acceleration asked of the swing foot",
          number, next_step, Of::bullet},
         OfDefault{0.1, 10.0}, [](auto& p) -> auto& { return p.gains.swing_acceleration_limit; }),

@@ -10,7 +10,7 @@ WorldParameters default_parameters(const SimulationConfig& config) {
   WorldParameters p;
   p.engine = engine_parameters(*config.robot, config.plant, config.strategies, Simulation::tick_s,
                                config.senses);
-  p.gains = whole_body_gains(*config.robot);
+  p.gains = whole_body_gains(*config.robot, config.senses.control_delay + Simulation::tick_s);
   p.senses = config.senses;
   p.physics = config.physics;
   p.physics.dt = Simulation::tick_s;

@@ -16,7 +16,9 @@ namespace stagger::server {
 /// What came last is served first. That makes no difference while there are threads enough; when
 /// there are not, the newest is the one who still waits for an answer, and a crowd that was here
 /// before it does not stand in its way. Who comes again at once gets few of the threads: all of
-/// them would be much of the machine.
+/// them would be much of the machine. Of the threads, too, the last one to fall asleep is the first
+/// to be woken: it is at hand in the caches, and the stacks of those that are never needed at a
+/// time take no memory.
 template <typename T>
 class WorkerPool {
  public:
@@ -48,20 +50,18 @@ class WorkerPool {
         fresh_.pop_front();
       }
       fresh_.push_back(std::move(item));
+      wake_one();
     }
-    changed_.notify_one();
     return left_out;
   }
 
   /// The same behind all others, for who has been served just now and wants more. Returns the item
   /// when there is no room.
   std::optional<T> add_more(T item) {
-    {
-      const std::lock_guard lock(mutex_);
-      if (stopped_ || more_.size() >= size_.room) return item;
-      more_.push_back(std::move(item));
-    }
-    changed_.notify_one();
+    const std::lock_guard lock(mutex_);
+    if (stopped_ || more_.size() >= size_.room) return item;
+    more_.push_back(std::move(item));
+    wake_one();
     return std::nullopt;
   }
 
@@ -76,19 +76,38 @@ class WorkerPool {
     {
       const std::lock_guard lock(mutex_);
       stopped_ = true;
+      while (!asleep_.empty()) wake_one();
     }
-    changed_.notify_all();
     for (std::thread& thread : threads_) thread.join();
     threads_.clear();
   }
 
  private:
+  struct Sleeper {
+    std::condition_variable changed;
+    bool is_woken = false;
+  };
+
+  // All below: with mutex_ held.
+  void wake_one() {
+    if (asleep_.empty()) return;  // who is awake looks for items before it sleeps
+    asleep_.back()->is_woken = true;
+    asleep_.back()->changed.notify_one();
+    asleep_.pop_back();
+  }
+
+  void sleep(Sleeper& sleeper, std::unique_lock<std::mutex>& lock) {
+    sleeper.is_woken = false;
+    asleep_.push_back(&sleeper);
+    sleeper.changed.wait(lock, [&sleeper] { return sleeper.is_woken; });
+  }
+
   bool may_serve_more() const { return !more_.empty() && serving_more_ < size_.threads_for_more; }
 
   void run() {
+    Sleeper sleeper;
     std::unique_lock lock(mutex_);
     for (;;) {
-      changed_.wait(lock, [this] { return stopped_ || !fresh_.empty() || may_serve_more(); });
       if (!fresh_.empty()) {
         serve_one(
             fresh_.back(), [this] { fresh_.pop_back(); }, lock);
@@ -97,7 +116,9 @@ class WorkerPool {
         serve_one(
             more_.front(), [this] { more_.pop_front(); }, lock);
         --serving_more_;
-        if (may_serve_more()) changed_.notify_one();
+        if (may_serve_more()) wake_one();
+      } else if (!stopped_) {
+        sleep(sleeper, lock);
       } else {
         return;
       }
@@ -117,10 +138,10 @@ class WorkerPool {
 
   const Size size_;
   mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<T> fresh_;  // newest last
-  std::deque<T> more_;   // newest last
-  std::size_t idle_;     // threads
+  std::vector<Sleeper*> asleep_;  // the latest last
+  std::deque<T> fresh_;           // newest last
+  std::deque<T> more_;            // newest last
+  std::size_t idle_;              // threads
   std::size_t serving_more_ = 0;
   bool stopped_ = false;
   const std::function<void(T)> serve_;

@@ -24,6 +24,11 @@ Eigen::Matrix3d yaw_rotation(double yaw) {
   return Eigen::AngleAxisd(yaw, Vec3::UnitZ()).toRotationMatrix();
 }
 
+void shorten_to(double most, Eigen::Ref<Vec3> vector) {
+  const double size = vector.norm();
+  if (size > most) vector *= most / size;
+}
+
 }  // namespace
 
 WholeBodyController::WholeBodyController(const Robot& robot, const WholeBodyGains& gains)
@@ -220,14 +225,12 @@ void WholeBodyController::add_foot_task(const RigidBody& body, const Foot& foot,
     const Eigen::Matrix3d rotation = body.rotation(foot.body) * foot.sole.linear();
     wanted.head<3>() = target.acceleration + gains_.swing_stiffness * (target.position - point) +
                        gains_.swing_damping * (target.velocity - velocity.head<3>());
-    const double size = wanted.head<3>().norm();
-    if (size > gains_.swing_acceleration_limit) {
-      wanted.head<3>() *= gains_.swing_acceleration_limit / size;
-    }
+    shorten_to(gains_.swing_acceleration_limit, wanted.head<3>());
     wanted.tail<3>() =
         Vec3(0.0, 0.0, target.yaw_acceleration) +
-        gains_.swing_stiffness * rotation_error(rotation, ground * yaw_rotation(target.yaw)) +
-        gains_.swing_damping * (Vec3(0.0, 0.0, target.yaw_velocity) - velocity.tail<3>());
+        gains_.swing_turn_stiffness * rotation_error(rotation, ground * yaw_rotation(target.yaw)) +
+        gains_.swing_turn_damping * (Vec3(0.0, 0.0, target.yaw_velocity) - velocity.tail<3>());
+    shorten_to(gains_.swing_turn_acceleration_limit, wanted.tail<3>());
     weight = gains_.swing_weight;
   }
   wanted -= body.bias_acceleration(foot.body, point);

@@ -1,10 +1,20 @@
 #include "sim/control/whole_body_gains.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "sim/robot/dynamic_scale.h"
 
 namespace stagger::sim {
+namespace {
 
-WholeBodyGains whole_body_gains(const Robot& robot) {
+/// What a swing foot's orientation loses of its phase by the delay, at its natural frequency [rad].
+/// Of a delay of 5 ms kasaei falls with 0.73, h1_2 with 0.81.
+constexpr double turn_phase_loss = 0.35;
+
+}  // namespace
+
+WholeBodyGains whole_body_gains(const Robot& robot, double loop_delay) {
   const DynamicScale scale = dynamic_scale(robot);
   const double frequency = scale.frequency();
   const double stiffness = frequency * frequency;
@@ -18,6 +28,11 @@ WholeBodyGains whole_body_gains(const Robot& robot) {
                     &gains.stance_damping, &gains.limit_damping}) {
     *d *= frequency;
   }
+  const double swing_frequency = std::sqrt(gains.swing_stiffness);
+  const double turn_frequency = std::max(swing_frequency, turn_phase_loss / loop_delay);
+  gains.swing_turn_stiffness = turn_frequency * turn_frequency;
+  gains.swing_turn_damping = 2.0 * turn_frequency;
+  gains.swing_turn_acceleration_limit /= scale.length;
   gains.torso_weight *= angular_weight;
   gains.limit_weight *= angular_weight;
   gains.ankle_limit_weight *= angular_weight;

@@ -23,6 +23,12 @@ struct WholeBodyGains {
   double swing_stiffness = 1500.0;
   double swing_damping = 75.0;
   double swing_acceleration_limit = 100.0;  ///< [m/s^2]
+  /// Of the orientation of a swing foot, which weighs next to nothing: a toe that catches at an
+  /// edge of the ground would turn it over, and be dragged along.
+  double swing_turn_stiffness = 30625.0;
+  double swing_turn_damping = 350.0;
+  /// So that a foot that was turned by a push does not outweigh the balance [rad/s^2].
+  double swing_turn_acceleration_limit = 250.0;
   double stance_weight = 1e4;
   double stance_damping = 60.0;
   double angular_length = 1.0;  ///< what an angle of a foot counts as against a length [m]
@@ -45,7 +51,9 @@ struct WholeBodyGains {
 /// The defaults carried over to this robot (dynamic_scale.h), so that a robot of another size does
 /// the same, only at its own size and pace: stiffnesses and dampings with its natural frequency,
 /// forces with its weight. Weights of linear accelerations stay, since accelerations do not scale;
-/// those of angular ones, and of joints, follow the square of a length.
-WholeBodyGains whole_body_gains(const Robot& robot);
+/// those of angular ones, and of joints, follow the square of a length. The orientation of a swing
+/// foot is held as stiffly as `loop_delay` allows: from a measurement to the end of the tick that
+/// has its torque [s].
+WholeBodyGains whole_body_gains(const Robot& robot, double loop_delay = 0.002);
 
 }  // namespace stagger::sim

@@ -41,7 +41,8 @@ FullBodyPlant::FullBodyPlant(std::shared_ptr<const Robot> robot, const PhysicsPa
       estimator_(*robot_, senses.sensors, physics.dt, physics.gravity, world_.state()),
       body_(robot_->model),
       true_body_(robot_->model),
-      controller_(*robot_, gains ? *gains : whole_body_gains(*robot_)),
+      controller_(*robot_,
+                  gains ? *gains : whole_body_gains(*robot_, senses.control_delay + physics.dt)),
       limp_damping_(limp_damping * dynamic_scale(*robot_).damping()) {
   const auto joints = static_cast<Eigen::Index>(robot_->model.joint_count());
   torque_ = Eigen::VectorXd::Zero(joints);

@@ -52,8 +52,8 @@ TEST(FullBodyTerrain, TilesOfTwoCentimetresAreWalkedForAMinute) {
   }
 }
 
-// A step down from a tile comes late, and the DCM runs away meanwhile. With a foot that feels for
-// the ground at 0.1 m/s h1_2 falls in each of these.
+// A step down from a tile comes late, and the DCM runs away meanwhile. With a foot that felt for
+// the ground at 0.1 m/s, and went forward while it came up, h1_2 fell in each of these.
 TEST(FullBodyTerrain, StepsDownFromTilesAreQuickEnoughForARobotOnLongFeet) {
   const auto h1_2 = load_robot("robots/h1_2");
   TerrainParameters terrain;
@@ -63,6 +63,21 @@ TEST(FullBodyTerrain, StepsDownFromTilesAreQuickEnoughForARobotOnLongFeet) {
     const WalkedTerrain walked = walk(terrain, 20.0, seed, {0.0, 0.0954, 0.0}, h1_2);
     EXPECT_EQ(walked.fall, "") << seed;
     EXPECT_GT(walked.way.y(), 1.3) << seed;
+  }
+}
+
+// A toe that stands at a tile's edge is held by it when it is lifted. A foot that goes forward
+// while it comes up, its sole held with the stiffness of its place, is turned over: h1_2 fell in
+// each.
+TEST(FullBodyTerrain, ToesComeOffTheEdgesOfTiles) {
+  const auto h1_2 = load_robot("robots/h1_2");
+  TerrainParameters terrain;
+  terrain.kind = TerrainKind::uneven;
+  terrain.unevenness = 0.0091;
+  for (const std::uint64_t seed : {1, 2, 3, 5}) {
+    const WalkedTerrain walked = walk(terrain, 50.0, seed, {0.286, 0.0, 0.0}, h1_2);
+    EXPECT_EQ(walked.fall, "") << seed;
+    EXPECT_GT(walked.way.x(), 12.0) << seed;
   }
 }
 

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <future>
+#include <set>
+#include <thread>
 #include <vector>
 
 namespace stagger::server {
@@ -98,6 +101,24 @@ TEST(WorkerPool, WhoWantsMoreDoesNotGetAllThreads) {
   gate.set_value();
   pool.stop();
   EXPECT_EQ(more, 1);
+}
+
+// One at a time: each is done before the next one comes.
+TEST(WorkerPool, FewThreadsDoWhatFewCanDo) {
+  constexpr int items = 64;
+  std::set<std::thread::id> threads;
+  WorkerPool<std::promise<void>*> pool({items, 1, 1}, [&](std::promise<void>* done) {
+    threads.insert(std::this_thread::get_id());
+    done->set_value();
+  });
+  for (int i = 0; i < items; ++i) {
+    std::promise<void> done;
+    pool.add(&done);
+    done.get_future().wait();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // it falls asleep
+  }
+  pool.stop();
+  EXPECT_LT(threads.size(), items / 2) << "in turn it would be all of them";
 }
 
 TEST_F(WorkerPoolTest, AfterItsEndItTakesNothing) {

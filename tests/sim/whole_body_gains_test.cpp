@@ -20,6 +20,8 @@ TEST(WholeBodyGainsTest, AreTheDefaultsForTheReferenceRobot) {
   EXPECT_DOUBLE_EQ(gains.torso_weight, defaults.torso_weight);
   EXPECT_DOUBLE_EQ(gains.torso_damping, defaults.torso_damping);
   EXPECT_DOUBLE_EQ(gains.swing_stiffness, defaults.swing_stiffness);
+  EXPECT_DOUBLE_EQ(gains.swing_turn_stiffness, defaults.swing_turn_stiffness);
+  EXPECT_DOUBLE_EQ(gains.swing_turn_damping, defaults.swing_turn_damping);
   EXPECT_DOUBLE_EQ(gains.stance_damping, defaults.stance_damping);
   EXPECT_DOUBLE_EQ(gains.acceleration_regularisation, defaults.acceleration_regularisation);
   EXPECT_DOUBLE_EQ(gains.force_regularisation, defaults.force_regularisation);
@@ -38,12 +40,23 @@ TEST(WholeBodyGainsTest, OfAQuarterOfTheHeightAreTwiceAsQuick) {
   // An acceleration is a share of gravity, whatever the size.
   EXPECT_EQ(gains.swing_acceleration_limit, defaults.swing_acceleration_limit);
   EXPECT_EQ(gains.com_weight, defaults.com_weight);
+  EXPECT_EQ(gains.swing_turn_acceleration_limit, 4.0 * defaults.swing_turn_acceleration_limit);
   // At 1/4 of the size the same angular acceleration is 1/4 of the linear one.
   EXPECT_NEAR(gains.torso_weight, defaults.torso_weight / 16.0, 1e-12);
   EXPECT_NEAR(gains.angular_length, 0.25, 1e-12);
   EXPECT_NEAR(gains.sole_margin, 0.25 * defaults.sole_margin, 1e-12);
   // Torque (1/4) by angular velocity (2).
   EXPECT_NEAR(gains.fallback_damping, defaults.fallback_damping / 8.0, 1e-12);
+}
+
+TEST(WholeBodyGainsTest, ASwingFootIsHeldAsStifflyAsTheDelayAllows) {
+  const auto kasaei = load_robot("robots/kasaei");
+  const WholeBodyGains quick = whole_body_gains(*kasaei, 0.001);
+  const WholeBodyGains late = whole_body_gains(*kasaei, 0.004);
+  EXPECT_NEAR(quick.swing_turn_stiffness, 16.0 * late.swing_turn_stiffness, 1e-6);
+  EXPECT_NEAR(quick.swing_turn_damping, 4.0 * late.swing_turn_damping, 1e-6);
+  // Never less than its place is.
+  EXPECT_DOUBLE_EQ(whole_body_gains(*kasaei, 0.1).swing_turn_stiffness, late.swing_stiffness);
 }
 
 TEST(WholeBodyGainsTest, ForcesFollowTheWeight) {
