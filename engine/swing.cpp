@@ -1,7 +1,6 @@
 #include "engine/swing.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace stagger::engine {
@@ -18,11 +17,14 @@ Eigen::Vector3d planar_near(const FootPose& target, double from_yaw) {
   return to;
 }
 
-// Of seven control points the middle one alone is the height: the curve is highest half-way, with
-// this share of it.
-constexpr double middle_weight = 20.0 / 64.0;
-// The middle one and the one before it are: highest here, where d/ds 5 s^2 (1 - s)^3 (3 + s) = 0.
-constexpr double early_peak = std::numbers::sqrt2 - 1.0;
+// Control points of a height that has 1 at its highest, there. It comes up with an acceleration,
+// while the way over the ground begins with a jerk alone: a toe that is dragged before it is up
+// catches at edges of a few millimetres. It comes down about as 64 s^3 (1 - s)^3 does: lower, a
+// foot that walks uphill would land early.
+constexpr std::array<double, 8> rise = {0.0, 0.0, 1.048799, 1.048799, 1.95, 0.0, 0.0, 0.0};
+constexpr double highest = 0.4705;
+// What the two middle ones of eight are of the height half-way.
+constexpr double middle_weight = 70.0 / 128.0;
 
 constexpr double least_span = 1e-6;  // [s]
 
@@ -48,33 +50,29 @@ void SwingTrajectory::start(const FootPose& start, const FootPose& target, doubl
   duration_ = duration;
   const double z0 = start.position.z();
   const double z1 = target.position.z();
-  // It comes up with an acceleration, while its way over the ground begins with a jerk alone: a toe
-  // that is dragged before it is up catches at edges of a few millimetres.
+  const double mean = 0.5 * (z0 + z1);
+  lift_ = {z0, z0, mean, mean, mean, z1, z1, z1};
   const double peak = std::max(z0, z1) + height;
-  const double rest = 1.0 - early_peak;
-  const double start_weight = std::pow(rest, 5) * (rest + 6.0 * early_peak);
-  const double both_weight = 5.0 * early_peak * early_peak * std::pow(rest, 3) * (3.0 + early_peak);
-  const double end_weight = 1.0 - start_weight - both_weight;
-  const double both = (peak - start_weight * z0 - end_weight * z1) / both_weight;
-  lift_ = {z0, z0, both, both, z1, z1, z1};
+  const double wanted = peak - evaluate_bezier<double, 7>(lift_, highest).value;
+  for (std::size_t i = 0; i < lift_.size(); ++i) lift_[i] += wanted * rise[i];
 }
 
 void SwingTrajectory::lift(double height) {
   const double mean = 0.5 * (lift_.front() + lift_.back());
   const double peak = std::max(lift_.front(), lift_.back()) + height;
-  lift_[3] = mean + (peak - mean) / middle_weight;
+  lift_[3] = lift_[4] = mean + (peak - mean) / middle_weight;
 }
 
 void SwingTrajectory::retarget(const FootPose& target, double time, double duration) {
   const double s = share(time);
   CurvePoint<Planar> ground = evaluate_bezier<Planar, 5>(planar_, s);
-  CurvePoint<double> up = evaluate_bezier<double, 6>(lift_, s);
+  CurvePoint<double> up = evaluate_bezier<double, 7>(lift_, s);
   ground.first /= span();
   ground.second /= span() * span();
   up.first /= span();
   up.second /= span() * span();
-  // What is left of the old curve keeps its middle point: so the foot clears the ground as before.
-  const double middle = rest_of_bezier<double, 6>(lift_, s)[3];
+  // What is left of the old curve keeps its middle points: so the foot clears the ground as before.
+  const std::array<double, 8> rest = rest_of_bezier<double, 7>(lift_, s);
 
   since_ = time;
   duration_ = duration;
@@ -88,9 +86,10 @@ void SwingTrajectory::retarget(const FootPose& target, double time, double durat
              to};
   const double z1 = target.position.z();
   lift_ = {up.value,
-           up.value + up.first * (d / 6.0),
-           up.value + up.first * (2.0 * d / 6.0) + up.second * (d * d / 30.0),
-           middle,
+           up.value + up.first * (d / 7.0),
+           up.value + up.first * (2.0 * d / 7.0) + up.second * (d * d / 42.0),
+           rest[3],
+           rest[4],
            z1,
            z1,
            z1};
@@ -100,7 +99,7 @@ FootTarget SwingTrajectory::at(double time) const {
   const double s = share(time);
   const double d = span();
   const CurvePoint<Planar> ground = evaluate_bezier<Planar, 5>(planar_, s);
-  const CurvePoint<double> up = evaluate_bezier<double, 6>(lift_, s);
+  const CurvePoint<double> up = evaluate_bezier<double, 7>(lift_, s);
   FootTarget foot;
   foot.position << ground.value.x(), ground.value.y(), up.value;
   foot.velocity << ground.first.x() / d, ground.first.y() / d, up.first / d;

@@ -44,7 +44,7 @@ class SwingTrajectory {
   double share(double time) const;
 
   std::array<Planar, 6> planar_;  ///< degree 5, from since_ to duration_
-  std::array<double, 7> lift_{};  ///< degree 6, likewise
+  std::array<double, 8> lift_{};  ///< degree 7, likewise
   double since_ = 0.0;            ///< lift-off or last replanning [s]
   double duration_ = 1.0;
   double landing_speed_;
