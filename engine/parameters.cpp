@@ -93,6 +93,9 @@ void validate_ranges(const Parameters& p) {
   within("contact_load", p.contact_load, 0.0, unlimited, "N");
   within("landing_patience", p.landing_patience, 0.0, unlimited, "s");
   within("landing_speed", p.landing_speed, 0.0, unlimited, "m/s");
+  within("landing_acceleration", p.landing_acceleration, 0.0, unlimited, "m/s^2");
+  within("landing_rate", p.landing_rate, 0.0, unlimited, "1/s");
+  within("hold_load", p.hold_load, 0.0, unlimited, "N");
 
   within("hip.torque", p.hip.torque, 0.0, unlimited, "N m");
   within("hip.inertia", p.hip.inertia, 1e-6, unlimited, "kg m^2");

@@ -97,6 +97,11 @@ struct Parameters {
   /// Of a foot that is late, down to where the ground is [m/s]. The DCM runs away meanwhile: at 0.1
   /// steps that came down a centimetre deeper, off a tile, threw h1_2 to the side.
   double landing_speed = 0.2;
+  double landing_acceleration = 4.0;  ///< by which that foot then goes faster [m/s^2]
+  double landing_rate = 60.0;  ///< of its way over the ground, to where the DCM has gone [1/s]
+  /// A swing foot that carries more in the first half of its way has caught at something, and waits
+  /// for it to let go [N].
+  double hold_load = 10.0;
 
   HipParameters hip;
   Strategies strategies;

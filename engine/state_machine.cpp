@@ -24,7 +24,7 @@ void StateMachine::stop() {
   steps_then_ = 0;
   std::size_t needed = 0;
   if (state_ == WalkingState::single_support) {
-    needed = time_ < 0.5 * t_ss_ ? 2 : 3;
+    needed = past_mid_swing() ? 3 : 2;
   } else if (state_ == WalkingState::double_support) {
     needed = 2;
   }
@@ -85,7 +85,7 @@ Transition StateMachine::advance(const StateInputs& inputs) {
 
     case WalkingState::single_support: {
       const bool in_time = time_ >= t_ss_ - rounding;
-      const bool early = inputs.swing_foot_loaded && time_ > 0.5 * t_ss_;
+      const bool early = inputs.swing_foot_loaded && past_mid_swing();
       const bool patient = in_time && !inputs.swing_foot_loaded && time_ < t_ss_ + patience_;
       if ((!in_time && !early) || patient) return Transition::none;
       if (early || time_ > t_ss_ + rounding) t_ss_ = time_;  // the double support begins now

@@ -65,6 +65,8 @@ class StateMachine {
   double t_ds() const { return t_ds_; }
   /// Time of single support still to come; 0 when waiting for a late landing [s].
   double single_support_left() const { return time_ < t_ss_ ? t_ss_ - time_ : 0.0; }
+  /// From here on a swing foot that meets the ground has landed.
+  bool past_mid_swing() const { return time_ > 0.5 * t_ss_; }
   double double_support_left() const { return t_ss_ + t_ds_ - time_; }
   std::uint64_t landings() const { return landings_; }
   bool walking() const { return steps_left_ > 0; }

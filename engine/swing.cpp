@@ -1,6 +1,7 @@
 #include "engine/swing.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace stagger::engine {
@@ -46,6 +47,7 @@ void SwingTrajectory::start(const FootPose& start, const FootPose& target, doubl
   const Planar from = planar(start);
   const Planar to = planar_near(target, from.z());
   planar_ = {from, from, from, to, to, to};
+  late_velocity_.setZero();
   since_ = 0.0;
   duration_ = duration;
   const double z0 = start.position.z();
@@ -95,6 +97,24 @@ void SwingTrajectory::retarget(const FootPose& target, double time, double durat
            z1};
 }
 
+void SwingTrajectory::hold(const FootPose& place, double time) {
+  const Planar to = planar_.back();
+  retarget({Vec3(to.x(), to.y(), lift_.back()), to.z()}, time, duration_);
+  const Planar here(place.position.x(), place.position.y(), planar_.front().z());
+  planar_ = {here, here, here, to, to, to};
+}
+
+void SwingTrajectory::go_after(const Vec2& place, double rate, double tick) {
+  // In closed form: stable at any rate.
+  Planar here = planar_.back();
+  const Vec2 off = here.head<2>() - place;
+  const Vec2 slope = late_velocity_ + rate * off;
+  const double decay = std::exp(-rate * tick);
+  here.head<2>() = place + decay * (off + tick * slope);
+  late_velocity_ = decay * (late_velocity_ - rate * tick * slope);
+  planar_.fill(here);
+}
+
 FootTarget SwingTrajectory::at(double time) const {
   const double s = share(time);
   const double d = span();
@@ -110,9 +130,10 @@ FootTarget SwingTrajectory::at(double time) const {
   foot.yaw_acceleration = ground.second.z() / (d * d);
   foot.in_contact = false;
   if (time > duration_) {  // the ground is lower than it was thought: feel for it
-    foot.position.z() -= landing_speed_ * (time - duration_);
-    foot.velocity << 0.0, 0.0, -landing_speed_;
-    foot.acceleration.setZero();
+    const double late = time - duration_;
+    foot.position.z() -= (landing_speed_ + 0.5 * landing_acceleration_ * late) * late;
+    foot.velocity << late_velocity_, -landing_speed_ - landing_acceleration_ * late;
+    foot.acceleration << 0.0, 0.0, -landing_acceleration_;
     foot.yaw_velocity = 0.0;
     foot.yaw_acceleration = 0.0;
   }

@@ -14,10 +14,14 @@ double least_time(const Vec2& way, const Vec2& velocity, double duration, double
 
 class SwingTrajectory {
  public:
-  /// Goes on down at `landing_speed` [m/s] from when it should have landed until someone sees it
-  /// land.
-  explicit SwingTrajectory(double landing_speed = 0.0) : landing_speed_(landing_speed) {}
-  void set_landing_speed(double landing_speed) { landing_speed_ = landing_speed; }
+  /// Goes on down from when it should have landed until someone sees it land: with `speed` [m/s]
+  /// at first, and faster by `acceleration` [m/s^2].
+  explicit SwingTrajectory(double speed = 0.0, double acceleration = 0.0)
+      : landing_speed_(speed), landing_acceleration_(acceleration) {}
+  void set_landing(double speed, double acceleration) {
+    landing_speed_ = speed;
+    landing_acceleration_ = acceleration;
+  }
 
   /// Lift-off at rest from `start`, up before it goes forward; lands on `target` (z: the ground
   /// there) after `duration` [s], with the sole `height` above the higher of the two ends at its
@@ -30,6 +34,14 @@ class SwingTrajectory {
 
   /// After retarget(): on the way from there it rises by `height` once more.
   void lift(double height);
+
+  /// The foot is held at `place`: from there it goes on over the ground, from rest, and comes up as
+  /// it was to.
+  void hold(const FootPose& place, double time);
+
+  /// A late foot, while it feels for the ground, goes after `place`: a tick of a critically damped
+  /// way there, at `rate` [1/s].
+  void go_after(const Vec2& place, double rate, double tick);
 
   /// Target of the foot at `time` since lift-off [s].
   FootTarget at(double time) const;
@@ -48,6 +60,8 @@ class SwingTrajectory {
   double since_ = 0.0;            ///< lift-off or last replanning [s]
   double duration_ = 1.0;
   double landing_speed_;
+  double landing_acceleration_;
+  Vec2 late_velocity_ = Vec2::Zero();  ///< of a late foot over the ground [m/s]
 };
 
 }  // namespace stagger::engine

@@ -54,7 +54,7 @@ WalkingEngine::WalkingEngine(const Parameters& parameters, const Measurement& st
       coming_{pattern_, pattern_},
       measured_(start),
       standing_(start.feet),
-      swing_(parameters.landing_speed) {
+      swing_(parameters.landing_speed, parameters.landing_acceleration) {
   validate(start);
   stance_ = footstep(start.feet[index(Side::left)], Side::left);
   landed_ = footstep(start.feet[index(Side::right)], Side::right);
@@ -109,7 +109,7 @@ void WalkingEngine::retune() {
   recovery_ = waiting_->recovery;
   lqg_.retune(waiting_->lqg);
   machine_.set_waits(parameters_.t_init, parameters_.landing_patience);
-  swing_.set_landing_speed(parameters_.landing_speed);
+  swing_.set_landing(parameters_.landing_speed, parameters_.landing_acceleration);
   waiting_.reset();
   // After a list the gait is still the old one.
   if (machine_.state() == WalkingState::idle) set_pattern(wish_, 0);
@@ -411,7 +411,10 @@ void WalkingEngine::adjust() {
   const double planned_t_ss = machine_.t_ss();
   // A recovery may begin with a step shorter than that: its place is found in its first tick.
   const bool under_way = machine_.time() > 0.0;
-  if (under_way && machine_.single_support_left() <= parameters_.step_freeze && !take_anew()) {
+  const double left = machine_.single_support_left();
+  if (under_way && left <= 0.0) {
+    steps_[0] = late_step();
+  } else if (under_way && left <= parameters_.step_freeze && !take_anew()) {
     steps_[0] = swing_goal_;
   } else {
     StepSituation now = situation(planned_);
@@ -421,9 +424,9 @@ void WalkingEngine::adjust() {
     const double lag = -std::expm1(-parameters_.tick / parameters_.time_constant);
     if (parameters_.strategies.time && !ends_well) adjust_step_time(now, lag);
     if (parameters_.strategies.step && !ends_well) {
-      const double left = machine_.single_support_left();
-      lean_on_ankle(now, left);
-      const StepAdjustment adjustment = adjust_step(now, left, omega_, step_reach(), parameters_);
+      const double rest = machine_.single_support_left();  // by the new time
+      lean_on_ankle(now, rest);
+      const StepAdjustment adjustment = adjust_step(now, rest, omega_, step_reach(), parameters_);
       steps_[0] = adjustment.step;
       adjusting_ = adjustment.adjusted;
     }
@@ -436,9 +439,18 @@ void WalkingEngine::adjust() {
   plan_reference();
 }
 
+Footstep WalkingEngine::late_step() const {
+  if (!parameters_.strategies.step) return swing_goal_;
+  // As if it landed now: when it will, nobody knows.
+  const StepAdjustment now =
+      adjust_step(situation(planned_), 0.0, omega_, step_reach(), parameters_);
+  return now.adjusted ? Footstep{now.step.position, swing_goal_.yaw, swing_goal_.side}
+                      : swing_goal_;
+}
+
 bool WalkingEngine::take_anew() {
   const double left = machine_.single_support_left();
-  if (left <= 0.0 || !parameters_.strategies.step || !parameters_.strategies.time) return false;
+  if (!parameters_.strategies.step || !parameters_.strategies.time) return false;
   StepSituation now = situation(planned_);
   lean_on_ankle(now, left);
   const StepAdjustment wanted = adjust_step(now, left, omega_, step_reach(), parameters_);
@@ -518,13 +530,24 @@ void WalkingEngine::move_swing_foot() {
   Footstep& goal = steps_[0];
   const double time = machine_.time();
   const double left = machine_.single_support_left();
+  if (left <= 0.0) {
+    swing_.go_after(goal.position, parameters_.landing_rate, parameters_.tick);
+    goal.position = swing_.at(time).position.head<2>();
+    swing_goal_ = goal;
+    return;
+  }
+  const std::size_t side = index(goal.side);
+  if (!machine_.past_mid_swing() && measured_.foot_load[side] > parameters_.hold_load) {
+    // What it has caught at holds it by the friction of its own pull.
+    swing_.hold(measured_.feet[side], time);
+  }
   // A foot that comes to rest in the time left is at its fastest 15/8 of its mean speed.
   const Vec2 here = swing_.at(time).position.head<2>();
   const Vec2 way = goal.position - here;
   const double most = parameters_.swing_speed * left / 1.875;
   if (way.norm() > most) goal.position = here + way * (most / way.norm());
   const FootPose landing = landing_pose(goal);
-  const bool lower = left > 0.0 && landing.position.z() != swing_.landing_height();
+  const bool lower = landing.position.z() != swing_.landing_height();
   if (goal.position != swing_goal_.position || goal.yaw != swing_goal_.yaw || lower ||
       machine_.t_ss() != swing_.duration()) {
     swing_.retarget(landing, time, machine_.t_ss());

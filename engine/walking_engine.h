@@ -137,6 +137,7 @@ class WalkingEngine {
   const ReachRegion& step_time_reach() const {
     return recovering_ ? recovery_.time_reach() : time_reach_;
   }
+  Footstep late_step() const;
   void move_swing_foot();
   void use_hip();
   void publish(const LqgReference& reference);

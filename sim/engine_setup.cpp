@@ -61,6 +61,8 @@ engine::Parameters engine_parameters(const Robot& robot, PlantKind plant,
   p.contact_load *= scale.mass;
   p.landing_patience *= time;
   p.landing_speed *= scale.length / time;
+  p.landing_rate /= time;
+  p.hold_load *= scale.mass;
   if (plant == PlantKind::bullet) {
     const WholeBodyGains gains = whole_body_gains(robot);
     // The whole-body controller keeps its corner forces this far inside the sole.

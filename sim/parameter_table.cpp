@@ -101,6 +101,17 @@ constexpr std::array table{
         {"gait.landing_speed", "m/s", "of a late foot on its way down to the ground"},
         Between{0.0, 2.0}, [](auto& p) -> auto& { return p.engine.landing_speed; }),
     row(
+        {"gait.landing_acceleration", "m/s^2", "by which a late foot then goes down faster"},
+        Between{0.0, 20.0}, [](auto& p) -> auto& { return p.engine.landing_acceleration; }),
+    row(
+        {"gait.landing_rate", "1/s",
+         "of a late foot's way over the ground to where the DCM has gone; 0: it stays where it is"},
+        Between{0.0, 500.0}, [](auto& p) -> auto& { return p.engine.landing_rate; }),
+    row(
+        {"gait.hold_load", "N",
+         "a swing foot that carries more in the first half of its way waits to be let go"},
+        OfDefault{0.1, 100.0}, [](auto& p) -> auto& { return p.engine.hold_load; }),
+    row(
         {"step.max_length", "m", "longest step forward"}, OfDefault{0.1, 2.0},
         [](auto& p) -> auto& { return p.engine.max_step_length; }),
     row(

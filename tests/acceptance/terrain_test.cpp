@@ -81,6 +81,20 @@ TEST(FullBodyTerrain, ToesComeOffTheEdgesOfTiles) {
   }
 }
 
+// On tiles of 2 cm for its size. h1_2 fell in each when a foot that came late stayed over the place
+// that had been right in time.
+TEST(FullBodyTerrain, AFootThatComesLateGoesAfterTheDcm) {
+  const auto h1_2 = load_robot("robots/h1_2");
+  TerrainParameters terrain;
+  terrain.kind = TerrainKind::uneven;
+  terrain.unevenness = 0.0164;
+  for (const std::uint64_t seed : {4, 7, 10}) {
+    const WalkedTerrain walked = walk(terrain, 25.0, seed, {0.0, 0.1908, 0.0}, h1_2);
+    EXPECT_EQ(walked.fall, "") << seed;
+    EXPECT_GT(walked.way.y(), 3.5) << seed;
+  }
+}
+
 TEST(FullBodyTerrain, APlatformIsSteppedOnWhileItMovesAndIsShoved) {
   TerrainParameters terrain;
   terrain.kind = TerrainKind::platform;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace stagger::engine {
 namespace {
 
@@ -68,10 +70,48 @@ TEST(Swing, RetargetKeepsPositionVelocityAndAcceleration) {
 
 TEST(Swing, FeelsForTheGroundWhenItIsLate) {
   SwingTrajectory trajectory = swing();
-  trajectory.set_landing_speed(0.2);
+  trajectory.set_landing(0.2, 4.0);
   const FootTarget late = trajectory.at(0.45);
-  EXPECT_NEAR(late.position.z(), 0.02 - 0.2 * 0.05, 1e-12);
-  EXPECT_EQ(late.velocity.z(), -0.2);
+  EXPECT_NEAR(late.position.z(), 0.02 - 0.2 * 0.05 - 0.5 * 4.0 * 0.05 * 0.05, 1e-12);
+  EXPECT_NEAR(late.velocity.z(), -0.2 - 4.0 * 0.05, 1e-12);
+  EXPECT_EQ(late.position.head<2>(), landing.position.head<2>());
+}
+
+TEST(Swing, ALateFootGoesAfterAPlace) {
+  SwingTrajectory trajectory = swing();
+  const Vec2 way(-0.02, 0.06);
+  const Vec2 place = landing.position.head<2>() + way;
+  for (int i = 0; i < 100; ++i) {
+    const Vec2 before = trajectory.at(0.401).position.head<2>();
+    trajectory.go_after(place, 60.0, 0.001);
+    const FootTarget foot = trajectory.at(0.401);
+    EXPECT_LT((foot.position.head<2>() - before - 0.001 * foot.velocity.head<2>()).norm(), 2e-4);
+    // It nears the place, and never goes beyond.
+    EXPECT_GE((place - foot.position.head<2>()).dot(way), 0.0) << i;
+  }
+  // Critically damped: (1 + r t) e^{-r t} of the way is left.
+  const double left = (place - trajectory.at(0.5).position.head<2>()).norm();
+  EXPECT_NEAR(left / way.norm(), 7.0 * std::exp(-6.0), 1e-9);
+
+  const Vec2 there = trajectory.at(0.5).position.head<2>();
+  trajectory.start(lift_off, landing, 0.4, 0.05);
+  trajectory.go_after(there, 0.0, 0.001);
+  EXPECT_EQ(trajectory.at(0.5).position.head<2>(), landing.position.head<2>());
+}
+
+TEST(Swing, AHeldFootGoesOnFromRestAndComesUpAsBefore) {
+  SwingTrajectory trajectory = swing();
+  const FootTarget before = trajectory.at(0.15);
+  const FootPose held{Vec3(0.03, 0.1, 0.04), 0.5};
+  trajectory.hold(held, 0.15);
+  const FootTarget after = trajectory.at(0.15);
+  EXPECT_LT((after.position - held.position).head<2>().norm(), 1e-12);
+  EXPECT_LT(after.velocity.head<2>().norm(), 1e-12);
+  EXPECT_NEAR(after.yaw, before.yaw, 1e-12);
+  EXPECT_NEAR(after.position.z(), before.position.z(), 1e-12);
+  EXPECT_NEAR(after.velocity.z(), before.velocity.z(), 1e-10);
+  EXPECT_LT((trajectory.at(0.4).position - landing.position).norm(), 1e-12);
+  EXPECT_NEAR(trajectory.at(0.4).yaw, landing.yaw, 1e-12);
 }
 
 TEST(Swing, LiftsOnceMoreWithoutAJump) {

@@ -274,6 +274,76 @@ TEST(WalkingEngine, GivesAnAdjustedStepTheTimeThatItsFootNeeds) {
   EXPECT_LT(slow.most_speed, fast.most_speed);
 }
 
+/// A step in place that lands so much deeper than the one before it, pushed when its place is
+/// frozen already: how far apart the feet are then [m].
+double width_of_late_step(const Parameters& parameters, double depth) {
+  Walk walk(parameters);
+  walk.engine().walk({});
+  walk.run(4.05);
+  while (walk.engine().targets().state != WalkingState::single_support) walk.run(0.001);
+  const Side swing = other(walk.engine().targets().support_side);
+  walk.set_sensors([&](Measurement& seen) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      seen.foot_load[i] = seen.feet[i].position.z() <= -depth ? 150.0 : 0.0;
+    }
+  });
+  walk.run(parameters.t_ss - 0.02);
+  walk.push({0.0, swing == Side::left ? 0.1 : -0.1});
+  while (walk.engine().targets().state == WalkingState::single_support) walk.run(0.001);
+  EXPECT_NEAR(walk.measurement().feet[index(swing)].position.z(), -depth, 1e-3);
+  return std::abs(walk.measurement().feet[0].position.y() -
+                  walk.measurement().feet[1].position.y());
+}
+
+TEST(WalkingEngine, ALateFootGoesAfterTheDcm) {
+  Parameters parameters = quick();
+  // A push that is left to the next step, as long as this one comes in time.
+  EXPECT_NEAR(width_of_late_step(parameters, 0.0), parameters.stance_width, 1e-3);
+  EXPECT_GT(width_of_late_step(parameters, 0.01), parameters.stance_width + 0.03);
+  EXPECT_GT(width_of_late_step(parameters, 0.02), width_of_late_step(parameters, 0.01) + 0.01);
+  parameters.landing_rate = 0.0;
+  EXPECT_NEAR(width_of_late_step(parameters, 0.02), parameters.stance_width, 1e-3);
+  parameters.landing_rate = 60.0;
+  parameters.strategies.step = false;
+  EXPECT_NEAR(width_of_late_step(parameters, 0.02), parameters.stance_width, 1e-3);
+}
+
+TEST(WalkingEngine, AFootThatIsHeldWaitsUntilItIsLetGo) {
+  const Parameters parameters = quick();
+  Walk walk;
+  walk.engine().walk({0.3, 0.0, 0.0});
+  walk.run(4.05);
+  while (walk.engine().targets().state != WalkingState::single_support) walk.run(0.001);
+  const std::size_t foot = index(other(walk.engine().targets().support_side));
+  walk.run(0.08);
+  const FootPose caught = walk.measurement().feet[foot];
+  double load = 1.1 * parameters.hold_load;  // its normal part is less than a landing's
+  ASSERT_LT(load, parameters.contact_load);
+  walk.set_sensors([&](Measurement& seen) {
+    if (load == 0.0) return;
+    seen.feet[foot].position.head<2>() = caught.position.head<2>();
+    seen.foot_load[foot] = load;
+  });
+  double height = 0.0;
+  for (int i = 0; i < 80; ++i) {
+    walk.run(0.001);
+    const FootTarget& target = walk.engine().targets().feet[foot];
+    // Nothing pulls it on, but up it goes.
+    EXPECT_LT((target.position - caught.position).head<2>().norm(), 1e-3) << i;
+    EXPECT_GT(target.position.z(), height) << i;
+    height = target.position.z();
+  }
+  load = 0.0;
+  Vec2 goal = Vec2::Zero();
+  while (walk.engine().targets().state == WalkingState::single_support) {
+    goal = walk.engine().targets().adjusted_step.position;
+    walk.run(0.001);
+  }
+  const Vec2 landed = walk.measurement().feet[foot].position.head<2>();
+  EXPECT_LT((landed - goal).norm(), 1e-3);
+  EXPECT_GT(landed.x() - caught.position.x(), 0.2);
+}
+
 TEST(WalkingEngine, KeepsTheNominalTimeWhileNothingIsWrong) {
   Walk walk;
   walk.engine().walk({0.2, 0.0, 0.0});
