@@ -119,12 +119,14 @@ void WalkingEngine::walk(const WalkCommand& command) {
   // The weight shift begins anew, from wherever the CoM is by then.
   if (waiting_ && machine_.state() == WalkingState::idle) retune();
   set_pattern(command, committed_steps());
+  stands_as_told_ = false;
   recovering_ = false;
   corrections_left_ = 0;
   machine_.start();
 }
 
 void WalkingEngine::stop() {
+  if (machine_.walking()) stands_as_told_ = false;
   machine_.stop();
   // The last step closes the feet, unless it is under way already.
   const std::size_t under_way = machine_.state() == WalkingState::single_support ? 1 : 0;
@@ -149,6 +151,7 @@ WalkingEngine::StepListError WalkingEngine::follow(std::span<const Footstep> ste
     from = step;
   }
   set_pattern({}, 0);
+  stands_as_told_ = true;
   corrections_left_ = 0;
   std::copy(steps.begin(), steps.end(), list_.begin());
   list_size_ = steps.size();
@@ -194,6 +197,7 @@ const WalkingTargets& WalkingEngine::update(const Measurement& measurement) {
     lqg_.estimate(com, com + measured_.com_velocity.head<2>() / omega_);
     estimating_ = true;
     recover();
+    mend_stance();
   }
 
   const Side swing_side = other(machine_.support_side());
@@ -247,6 +251,7 @@ void WalkingEngine::recover() {
   const bool listed = list_next_ < list_size_;
   if (!machine_.walking() || (listed && list_[list_next_].side == support)) {
     machine_.stop();
+    stands_as_told_ = false;
     set_pattern({}, 0);
     corrections_left_ = most_recovery_corrections;
   }
@@ -257,6 +262,25 @@ void WalkingEngine::recover() {
   plan_reference();
   if (use.time) adjust_step_time(situation(steps_[0]), 1.0);
   com_reference_ = lqg_.com();
+}
+
+void WalkingEngine::mend_stance() {
+  // At the edge of a stone a foot may creep under a body at rest until that falls. And after steps
+  // that had to catch it, it may have come to rest on any feet.
+  constexpr double rest = 2.0;            // of t_init, which takes it to the middle
+  constexpr double most_distance = 0.05;  // [m]
+  constexpr double most_turn = 0.25;      // [rad]
+  if (!parameters_.strategies.step || stands_as_told_ || machine_.walking() ||
+      machine_.state() != WalkingState::idle || machine_.time() < rest * parameters_.t_init) {
+    return;
+  }
+  const Side side = machine_.support_side();
+  const StanceError error = stance_error(footstep(measured_.feet[index(side)], side),
+                                         footstep(measured_.feet[index(other(side))], other(side)));
+  if (error.distance < most_distance && error.turn < most_turn) return;
+  set_pattern({}, 0);
+  corrections_left_ = most_corrections;
+  machine_.start(1);
 }
 
 void WalkingEngine::react(Transition transition) {
@@ -277,6 +301,7 @@ void WalkingEngine::react(Transition transition) {
       nominal_t_ss_ = machine_.t_ss();
       plan_steps(stance_, 0);
       swing_goal_ = steps_[0];
+      lifted_ = false;
       swing_.start(standing_[index(swing_goal_.side)], landing_pose(swing_goal_),
                    machine_.t_ss() - machine_.time(), parameters_.swing_height);
       break;
@@ -322,15 +347,21 @@ void WalkingEngine::begin_shift() {
   com_reference_ = lqg_.com();
 }
 
+WalkingEngine::StanceError WalkingEngine::stance_error(const Footstep& stance,
+                                                       const Footstep& landed) const {
+  // Not as far apart as parameters that are still to come would have them.
+  const StepPattern& rest = waiting_ ? step_pattern({}, reach_, parameters_) : pattern_;
+  const Footstep wanted = next_footstep(stance, rest);
+  return {(landed.position - wanted.position).norm(),
+          std::abs(std::remainder(landed.yaw - wanted.yaw, 2.0 * std::numbers::pi))};
+}
+
 bool WalkingEngine::stands_side_by_side() const {
   // More than a body misses its footholds by.
   constexpr double most_distance = 0.02;  // [m]
   constexpr double most_turn = 0.1;       // [rad]
-  // Not as far apart as parameters that are still to come would have them.
-  const StepPattern& rest = waiting_ ? step_pattern({}, reach_, parameters_) : pattern_;
-  const Footstep wanted = next_footstep(stance_, rest);
-  return (landed_.position - wanted.position).norm() < most_distance &&
-         std::abs(std::remainder(landed_.yaw - wanted.yaw, 2.0 * std::numbers::pi)) < most_turn;
+  const StanceError error = stance_error(stance_, landed_);
+  return error.distance < most_distance && error.turn < most_turn;
 }
 
 void WalkingEngine::begin_rest(const Vec2& dcm) {
@@ -537,7 +568,9 @@ void WalkingEngine::move_swing_foot() {
     return;
   }
   const std::size_t side = index(goal.side);
-  if (!machine_.past_mid_swing() && measured_.foot_load[side] > parameters_.hold_load) {
+  const bool loaded = measured_.foot_load[side] > parameters_.hold_load;
+  lifted_ = lifted_ || !loaded;
+  if (lifted_ && loaded && !machine_.past_mid_swing()) {
     // What it has caught at holds it by the friction of its own pull.
     swing_.hold(measured_.feet[side], time);
   }

@@ -100,12 +100,21 @@ class WalkingEngine {
   std::size_t swing_path(std::span<Vec3> points) const;
 
  private:
+  struct StanceError {
+    double distance;  ///< [m]
+    double turn;      ///< [rad]
+  };
+
   bool take(const Measurement& measurement);
   /// The ground is where the stance foot was lowest since the other one left.
   void settle_stance_foot();
   /// Steps when the robot stands and the DCM is lost otherwise.
   void recover();
+  /// Steps when it has stood for a while on feet that are not where they should be.
+  void mend_stance();
   void react(Transition transition);
+  /// How far the foot that landed is from beside the other one, as a pattern at rest has it.
+  StanceError stance_error(const Footstep& stance, const Footstep& landed) const;
   bool stands_side_by_side() const;
   void begin_shift();
   /// From this DCM to one over the middle of the feet [m].
@@ -169,7 +178,8 @@ class WalkingEngine {
   bool estimating_ = false;
 
   bool recovering_ = false;
-  int corrections_left_ = 0;  ///< further steps that a walk may take to end side by side
+  bool stands_as_told_ = true;  ///< by whoever started it, or by a list: that stance is kept
+  int corrections_left_ = 0;    ///< further steps that a walk may take to end side by side
 
   Footstep stance_;               ///< f_i; in double support the foot that the ZMP leaves
   Footstep landed_;               ///< in double support: f_{i+1}, where the foot really landed
@@ -181,6 +191,7 @@ class WalkingEngine {
   SwingTrajectory swing_;
   Footstep swing_goal_;        ///< what swing_ is heading for
   double nominal_t_ss_ = 0.0;  ///< of the single support under way, before adjustment [s]
+  bool lifted_ = false;        ///< the swing foot has carried next to nothing since lift-off
   bool adjusting_ = false;
 
   DcmPlan plan_;

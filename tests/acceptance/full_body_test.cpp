@@ -1,6 +1,8 @@
 // Tier 3: the full body in Bullet under the engine. Pushes lie well below the measured limits.
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "sim/experiment/trial.h"
 #include "sim/simulation.h"
 #include "tests/sim/kasaei.h"
@@ -32,7 +34,7 @@ TEST(FullBody, StepsInPlaceForAMinuteCloseToItsPlan) {
 }
 
 TEST(FullBody, WalksInEveryDirectionAtTheCommandedSpeed) {
-  for (const Vec2& v : {Vec2(0.3, 0.0), Vec2(-0.2, 0.0), Vec2(0.0, 0.15), Vec2(0.0, -0.15)}) {
+  for (const Vec2& v : {Vec2(0.3, 0.0), Vec2(-0.3, 0.0), Vec2(0.0, 0.2), Vec2(0.0, -0.2)}) {
     const Walked result = walk({v.x(), v.y(), 0.0}, 20.0);
     EXPECT_FALSE(result.fell) << v.transpose();
     const Vec2 velocity = result.com.head<2>() / (20.0 - 1.0);  // less the start
@@ -134,9 +136,26 @@ TEST(FullBody, WalksFarByItsSensors) {
   config.robot = kasaei();
   Simulation simulation(config);
   simulation.walk({0.5, 0.0, 0.0});
-  for (int i = 0; i < 150000; ++i) simulation.step();
+  for (int i = 0; i < 220000; ++i) simulation.step();
   EXPECT_EQ(simulation.fall_reason(), "");
-  EXPECT_GT(simulation.frame().com.head<2>().norm(), 65.0);
+  EXPECT_GT(simulation.frame().com.head<2>().norm(), 100.0);
+}
+
+TEST(FullBody, StartsAndStopsTwentyTimes) {
+  SimulationConfig config;
+  config.robot = kasaei();
+  Simulation simulation(config);
+  const std::array<engine::WalkCommand, 4> commands{
+      {{0.3, 0.0, 0.0}, {-0.2, 0.1, 0.0}, {0.1, 0.0, 0.2}, {0.3, 0.1, -0.2}}};
+  for (int i = 0; i < 20; ++i) {
+    simulation.walk(commands[static_cast<std::size_t>(i) % commands.size()]);
+    // Stopped at another moment of the step each time.
+    for (int tick = 0; tick < 2000 + 37 * i; ++tick) simulation.step();
+    simulation.stop_walking();
+    for (int tick = 0; tick < 3000; ++tick) simulation.step();
+    ASSERT_EQ(simulation.fall_reason(), "") << i;
+    ASSERT_EQ(simulation.frame().state, WalkingState::idle) << i;
+  }
 }
 
 TEST(FullBody, StandsUpAgainAfterWalking) {

@@ -44,6 +44,10 @@ class Walk {
   /// What the sensors make of each measurement before the engine sees it.
   void set_sensors(std::function<void(Measurement&)> sensors) { sensors_ = std::move(sensors); }
   void push(const Vec2& velocity) { mass_.velocity += velocity; }
+  /// A foot that stands slips [m].
+  void slip(engine::Side side, const Vec2& way) {
+    measurement_.feet[engine::index(side)].position.head<2>() += way;
+  }
 
   WalkingEngine& engine() { return engine_; }
   const WalkingEngine& engine() const { return engine_; }

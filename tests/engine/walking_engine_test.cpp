@@ -344,6 +344,49 @@ TEST(WalkingEngine, AFootThatIsHeldWaitsUntilItIsLetGo) {
   EXPECT_GT(landed.x() - caught.position.x(), 0.2);
 }
 
+/// Steps that it takes within five seconds after the left foot has slipped that far at rest.
+std::uint64_t steps_after_slip(Walk& walk, const Vec2& way) {
+  walk.run(2.0);
+  EXPECT_EQ(walk.engine().targets().state, WalkingState::idle);
+  const std::uint64_t before = walk.engine().targets().step_count;
+  walk.slip(Side::left, way);
+  walk.run(5.0);
+  EXPECT_EQ(walk.engine().targets().state, WalkingState::idle);
+  return walk.engine().targets().step_count - before;
+}
+
+TEST(WalkingEngine, AStanceThatHasGoneOutOfShapeIsSteppedRight) {
+  Walk walk;
+  walk.engine().walk({});
+  walk.run(2.0);
+  walk.engine().stop();
+  walk.run(2.0);
+  EXPECT_EQ(steps_after_slip(walk, {0.03, 0.0}), 0U);  // of no matter
+  EXPECT_GT(steps_after_slip(walk, {0.05, 0.02}), 0U);
+  const Vec3 apart = walk.measurement().feet[0].position - walk.measurement().feet[1].position;
+  EXPECT_NEAR(apart.x(), 0.0, 0.02);
+  EXPECT_NEAR(apart.y(), quick().stance_width, 0.02);
+  EXPECT_EQ(steps_after_slip(walk, {0.0, 0.0}), 0U);
+
+  Strategies no_steps;
+  no_steps.step = false;
+  walk.engine().set_strategies(no_steps);
+  EXPECT_EQ(steps_after_slip(walk, {0.08, 0.0}), 0U);
+}
+
+TEST(WalkingEngine, AStanceThatWasAskedForIsKept) {
+  Walk first;  // as it was started
+  EXPECT_EQ(steps_after_slip(first, {0.08, 0.0}), 0U);
+  Walk listed;
+  listed.run(0.1);
+  const std::array<Footstep, 2> steps{Footstep{{0.1, -0.1}, 0.0, Side::right},
+                                      Footstep{{0.2, 0.12}, 0.0, Side::left}};
+  ASSERT_EQ(listed.engine().follow(steps), WalkingEngine::StepListError::none);
+  listed.run(4.0);
+  listed.engine().stop();
+  EXPECT_EQ(steps_after_slip(listed, {0.0, 0.0}), 0U);
+}
+
 TEST(WalkingEngine, KeepsTheNominalTimeWhileNothingIsWrong) {
   Walk walk;
   walk.engine().walk({0.2, 0.0, 0.0});
