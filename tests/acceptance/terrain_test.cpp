@@ -82,7 +82,7 @@ TEST(FullBodyTerrain, ToesComeOffTheEdgesOfTiles) {
 }
 
 // On tiles of 2 cm for its size. h1_2 fell in each when a foot that came late stayed over the place
-// that had been right in time.
+// that had been right in time, and one that was caught was pulled on; in two of them by the first.
 TEST(FullBodyTerrain, AFootThatComesLateGoesAfterTheDcm) {
   const auto h1_2 = load_robot("robots/h1_2");
   TerrainParameters terrain;
