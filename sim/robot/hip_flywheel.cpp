@@ -9,17 +9,15 @@
 namespace stagger::sim {
 namespace {
 
-using engine::Vec2;
-
 /// The part of the hips' torque and speed that the hip strategy may reckon with: the rest holds the
 /// body up and moves the legs.
 constexpr double hip_torque_share = 0.5;
 constexpr double hip_speed_share = 0.5;
 constexpr double hip_angle = 0.5;  // [rad]
 
-/// Angular momentum about the CoM for each rad/s by which the trunk leans while feet and CoM stay
-/// where they are, about the x and y axes: the legs turn against it. [kg m^2]
-Vec2 lean_inertia(const Robot& robot) {
+}  // namespace
+
+double lean_inertia(const Robot& robot) {
   RigidBody body(robot.model);
   body.update(nominal_state(robot));
   Eigen::MatrixXd held(18, body.nv());
@@ -33,20 +31,18 @@ Vec2 lean_inertia(const Robot& robot) {
   body.jacobian(0, body.position(0), jacobian);
   held.bottomRows<3>() = jacobian.bottomRows<3>();
   const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> motion(held);
-  Vec2 inertia;
+  engine::Vec2 inertia;
   for (Eigen::Index axis = 0; axis < 2; ++axis) {
     const Eigen::VectorXd nu = motion.solve(Eigen::VectorXd::Unit(18, 15 + axis));
     inertia[axis] = body.angular_momentum_matrix().row(axis).dot(nu);
   }
-  return inertia;
+  return inertia.minCoeff();
 }
-
-}  // namespace
 
 engine::HipParameters hip_flywheel(const Robot& robot) {
   engine::HipParameters hip;
   const LegGeometry leg = leg_geometry(robot, engine::Side::left);
-  const double inertia = lean_inertia(robot).minCoeff();
+  const double inertia = lean_inertia(robot);
   if (leg.hip_body < 0 || leg.hip_roll_body < 0 || !(inertia > 0.0)) return hip;
   const Body& pitch = robot.model.bodies[static_cast<std::size_t>(leg.hip_body)];
   const Body& roll = robot.model.bodies[static_cast<std::size_t>(leg.hip_roll_body)];

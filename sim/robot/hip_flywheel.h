@@ -6,9 +6,12 @@
 
 namespace stagger::sim {
 
+/// Angular momentum about the CoM for each rad/s by which the trunk leans over feet and CoM that
+/// stay where they are: the legs turn against it. The less of forwards and sideways [kg m^2].
+double lean_inertia(const Robot& robot);
+
 /// Torque and speed are half of what the weaker of the hips' pitch and roll motors gives; the
-/// inertia is the angular momentum that the whole body has when its trunk leans by 1 rad/s over
-/// feet and CoM that stay where they are. No torque, and so no hip strategy, when the legs have no
+/// inertia is lean_inertia(). No torque, and so no hip strategy, when the legs have no
 /// such joints.
 engine::HipParameters hip_flywheel(const Robot& robot);
 

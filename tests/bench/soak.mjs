@@ -93,8 +93,8 @@ async function look() {
 
 /** The flight recorder's file of the newest fall, copied to where it outlives the server. */
 async function keepFall() {
-  const [newest] = (await ask('GET', '/recordings?limit=1')).items;
   await sleep(2000); // its end is still to come
+  const [newest] = (await ask('GET', '/recordings?reason=fall&limit=1')).items;
   const file = path.join(os.tmpdir(), `soak-fall-${newest.id}.mcap`);
   fs.copyFileSync(path.join(server.data, 'recordings', `${newest.id}.mcap`), file);
   return file;

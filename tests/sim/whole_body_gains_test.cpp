@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/robot/hip_flywheel.h"
+
 namespace stagger::sim {
 namespace {
 
-/// Robot kasaei as if its CoM were elsewhere: the gains look at nothing else.
+/// Robot kasaei as if its CoM were elsewhere.
 WholeBodyGains gains_at(double com_height) {
   Robot robot = *load_robot("robots/kasaei");
   robot.description.walk.com_height_m = com_height;
@@ -17,7 +19,7 @@ TEST(WholeBodyGainsTest, AreTheDefaultsForTheReferenceRobot) {
   const WholeBodyGains defaults;
   EXPECT_DOUBLE_EQ(gains.com_weight, defaults.com_weight);
   EXPECT_DOUBLE_EQ(gains.height_stiffness, defaults.height_stiffness);
-  EXPECT_DOUBLE_EQ(gains.torso_weight, defaults.torso_weight);
+  EXPECT_NEAR(gains.torso_weight, defaults.torso_weight, 1e-3 * defaults.torso_weight);
   EXPECT_DOUBLE_EQ(gains.torso_damping, defaults.torso_damping);
   EXPECT_DOUBLE_EQ(gains.swing_stiffness, defaults.swing_stiffness);
   EXPECT_DOUBLE_EQ(gains.swing_turn_stiffness, defaults.swing_turn_stiffness);
@@ -42,11 +44,23 @@ TEST(WholeBodyGainsTest, OfAQuarterOfTheHeightAreTwiceAsQuick) {
   EXPECT_EQ(gains.com_weight, defaults.com_weight);
   EXPECT_EQ(gains.swing_turn_acceleration_limit, 4.0 * defaults.swing_turn_acceleration_limit);
   // At 1/4 of the size the same angular acceleration is 1/4 of the linear one.
-  EXPECT_NEAR(gains.torso_weight, defaults.torso_weight / 16.0, 1e-12);
+  EXPECT_NEAR(gains.limit_weight, defaults.limit_weight / 16.0, 1e-12);
   EXPECT_NEAR(gains.angular_length, 0.25, 1e-12);
   EXPECT_NEAR(gains.sole_margin, 0.25 * defaults.sole_margin, 1e-12);
   // Torque (1/4) by angular velocity (2).
   EXPECT_NEAR(gains.fallback_damping, defaults.fallback_damping / 8.0, 1e-12);
+}
+
+TEST(WholeBodyGainsTest, ATorsoCountsWithItsRadiusOfGyration) {
+  Robot robot = *load_robot("robots/kasaei");
+  const double before = whole_body_gains(robot).torso_weight;
+  for (Body& body : robot.model.bodies) body.mass *= 2.0, body.inertia *= 2.0;
+  EXPECT_NEAR(whole_body_gains(robot).torso_weight, before, 1e-9 * before);
+
+  // The legs go against the trunk as before.
+  const double leaning = lean_inertia(robot);
+  robot.model.bodies[0].inertia += 0.5 * leaning * Eigen::Matrix3d::Identity();
+  EXPECT_NEAR(whole_body_gains(robot).torso_weight, 1.5 * before, 1e-9 * before);
 }
 
 TEST(WholeBodyGainsTest, ASwingFootIsHeldAsStifflyAsTheDelayAllows) {
