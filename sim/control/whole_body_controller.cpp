@@ -197,45 +197,52 @@ void WholeBodyController::add_torso_task(const RigidBody& body,
   add_task(gains_.torso_weight, jacobian_.bottomRows(3), wanted);
 }
 
-double WholeBodyController::ankle_freedom(const LegGeometry& leg, const RobotState& state) const {
+double WholeBodyController::ankle_freedom(const LegGeometry& leg, const RobotState& state,
+                                          const Vec3& turn) const {
   constexpr double least = 0.01;
   double freedom = 1.0;
   for (const int joint : leg.ankle_joints) {
     const Body& body = joints_[static_cast<std::size_t>(joint)];
     const double q = state.q[joint];
-    const double room = std::min(q - body.lower, body.upper - q) - gains_.limit_margin;
-    freedom = std::min(freedom, room / gains_.limit_margin);
+    // A foot at an end is turned back as soon as it should: h1_2's, tilted by a long step behind
+    // it, else stayed so while the leg came forward, and landed on its heel in mid-swing.
+    constexpr double eager = 4.0;  // it is held again from 0.025 rad on
+    const double way = eager * jacobian_.col(6 + joint).tail<3>().dot(turn);
+    const double room =
+        std::min(q - body.lower + std::max(way, 0.0), body.upper - q + std::max(-way, 0.0));
+    freedom = std::min(freedom, room / gains_.limit_margin - 1.0);
   }
   return std::max(freedom, least);
 }
 
 void WholeBodyController::add_foot_task(const RigidBody& body, const Foot& foot,
-                                        const engine::FootTarget& target, double freedom,
-                                        const Eigen::Quaterniond& ground) {
+                                        const engine::FootTarget& target, const LegGeometry& leg,
+                                        const RobotState& state, const Eigen::Quaterniond& ground) {
   const Vec3 point = body.pose(foot.body) * foot.sole.translation();
   const Vec6 velocity = body.velocity(foot.body, point);
   body.jacobian(foot.body, point, jacobian_);
   Vec6 wanted;
   double weight = 0.0;
+  Vec3 turn = Vec3::Zero();
   if (target.in_contact) {
     // A standing foot is held by its contact: all that is asked of it is not to move.
     wanted = -gains_.stance_damping * velocity;
     weight = gains_.stance_weight;
   } else {
-    const Eigen::Matrix3d rotation = body.rotation(foot.body) * foot.sole.linear();
+    turn = rotation_error(body.rotation(foot.body) * foot.sole.linear(),
+                          ground * yaw_rotation(target.yaw));
     wanted.head<3>() = target.acceleration + gains_.swing_stiffness * (target.position - point) +
                        gains_.swing_damping * (target.velocity - velocity.head<3>());
     shorten_to(gains_.swing_acceleration_limit, wanted.head<3>());
     wanted.tail<3>() =
-        Vec3(0.0, 0.0, target.yaw_acceleration) +
-        gains_.swing_turn_stiffness * rotation_error(rotation, ground * yaw_rotation(target.yaw)) +
+        Vec3(0.0, 0.0, target.yaw_acceleration) + gains_.swing_turn_stiffness * turn +
         gains_.swing_turn_damping * (Vec3(0.0, 0.0, target.yaw_velocity) - velocity.tail<3>());
     shorten_to(gains_.swing_turn_acceleration_limit, wanted.tail<3>());
     weight = gains_.swing_weight;
   }
   wanted -= body.bias_acceleration(foot.body, point);
   // Weights go with the square of a row.
-  const double tilt = gains_.angular_length * std::sqrt(freedom);
+  const double tilt = gains_.angular_length * std::sqrt(ankle_freedom(leg, state, turn));
   const Vec3 scale(tilt, tilt, gains_.angular_length);
   jacobian_.bottomRows<3>() = scale.asDiagonal() * jacobian_.bottomRows<3>();
   wanted.tail<3>() = scale.cwiseProduct(wanted.tail<3>());
@@ -316,7 +323,7 @@ const Eigen::VectorXd& WholeBodyController::compute(const RigidBody& body, const
   add_momentum_task(body, targets);
   add_torso_task(body, targets);
   for (std::size_t i = 0; i < feet_.size(); ++i) {
-    add_foot_task(body, feet_[i], targets.feet[i], ankle_freedom(legs_[i], state), ground);
+    add_foot_task(body, feet_[i], targets.feet[i], legs_[i], state, ground);
   }
   add_joint_limit_tasks(state);
   sum_up_tasks();

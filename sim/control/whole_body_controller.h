@@ -56,12 +56,13 @@ class WholeBodyController {
   void add_joint_limit_tasks(const RobotState& state);
   void add_momentum_task(const RigidBody& body, const engine::WalkingTargets& targets);
   void add_torso_task(const RigidBody& body, const engine::WalkingTargets& targets);
-  /// How far the ankle is from the ends of its ranges: 1 well inside, next to nothing at an end.
-  double ankle_freedom(const LegGeometry& leg, const RobotState& state) const;
-  /// `freedom`: of the ankle. At the end of its range a foot tilts: held level it would drag the
-  /// whole body along.
+  /// How far the ankle is from the ends of its ranges: 1 well inside, next to nothing at an end,
+  /// unless `turn`, a rotation vector, takes the foot away from there. By the foot's jacobian_.
+  double ankle_freedom(const LegGeometry& leg, const RobotState& state, const Vec3& turn) const;
+  /// At the end of its ankle's range a foot tilts: held level it would drag the whole body along.
   void add_foot_task(const RigidBody& body, const Foot& foot, const engine::FootTarget& target,
-                     double freedom, const Eigen::Quaterniond& ground);
+                     const LegGeometry& leg, const RobotState& state,
+                     const Eigen::Quaterniond& ground);
   /// The cost of the tasks that were added.
   void sum_up_tasks();
   void find_contacts(const RigidBody& body, const engine::WalkingTargets& targets);

@@ -95,5 +95,48 @@ TEST_P(FullBodyRobots, TakesAPushFromEverySide) {
   }
 }
 
+/// Falls of pushes of 10 ms by that share of sqrt(g h) [m/s], left leg standing, four seeds.
+int falls(const char* name, double froude, double degrees, double phase) {
+  const auto robot = load_robot(std::string("robots/") + name);
+  const double height = robot->description.walk.com_height_m;
+  int fallen = 0;
+  for (const std::uint64_t seed : {1, 2, 3, 8}) {
+    TrialSpec spec;
+    spec.robot = name;
+    spec.seed = seed;
+    spec.push = PushSpec();
+    spec.push->direction = horizontal_direction(degrees);
+    spec.push->impulse_ns = froude * std::sqrt(9.81 * height) * robot->model.mass();
+    spec.push->duration_s = 0.01;
+    spec.push->trigger = PhaseTrigger{WalkingState::single_support, Side::left, phase};
+    const TrialResult result = run_trial(spec, robot);
+    EXPECT_TRUE(result.push_tick) << result.reason;
+    if (result.outcome != TrialOutcome::recovered) ++fallen;
+  }
+  return fallen;
+}
+
+TEST(PushedRobots, StepBackNoFasterThanTheirHipsCan) {
+  // Planned for more than its hip's torque, h1_2's foot ends far behind its place.
+  for (const double phase : {0.1, 0.35, 0.5, 0.55, 0.6}) {
+    EXPECT_EQ(falls("h1_2", 0.245, 180.0, phase), 0) << phase;
+  }
+}
+
+TEST(PushedRobots, KeepTheTorsoUpWhileTheyStepBack) {
+  // With a torso that weighs by its height alone g1 leans back by 0.8 rad in the second step.
+  for (const double phase : {0.1, 0.15, 0.35, 0.6}) {
+    EXPECT_EQ(falls("g1", 0.245, 180.0, phase), 0) << phase;
+  }
+}
+
+TEST(PushedRobots, TurnAFootBackFromTheEndOfItsAnkle) {
+  // Else h1_2's foot, tilted by a long step behind it, lands on its heel in mid-swing.
+  int fallen = 0;
+  for (const double froude : {0.172, 0.175, 0.177, 0.179})
+    fallen += falls("h1_2", froude, 45.0, 0.35);
+  EXPECT_LE(fallen, 1);
+}
+
 }  // namespace
 }  // namespace stagger::sim
