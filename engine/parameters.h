@@ -100,8 +100,8 @@ struct Parameters {
   double landing_acceleration = 4.0;  ///< by which that foot then goes faster [m/s^2]
   double landing_rate = 60.0;  ///< of its way over the ground, to where the DCM has gone [1/s]
   /// A swing foot that carries more in the first half of its way, once it has been free, has caught
-  /// at something, and waits for it to let go. With 10 walls that pulled less turned h1_2's foot
-  /// over; with 2.7 the noise of its sensors holds it [N].
+  /// at something, and waits for it to let go. Sideways on tiles of 16.4 mm h1_2 falls in 1 of 48
+  /// walks of a minute; with 10 in 4 of 48, with 2.7 in 3 of 12 [N].
   double hold_load = 5.0;
 
   HipParameters hip;
