@@ -241,6 +241,9 @@ void WholeBodyController::add_foot_task(const RigidBody& body, const Foot& foot,
     weight = gains_.swing_weight;
   }
   wanted -= body.bias_acceleration(foot.body, point);
+  // But a toe that hangs down is not lifted so: a step that comes late is down the sooner by it.
+  const Vec3 lateral = yaw_rotation(target.yaw).col(1);
+  turn -= std::min(turn.dot(lateral), 0.0) * lateral;
   // Weights go with the square of a row.
   const double tilt = gains_.angular_length * std::sqrt(ankle_freedom(leg, state, turn));
   const Vec3 scale(tilt, tilt, gains_.angular_length);
