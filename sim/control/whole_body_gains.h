@@ -45,8 +45,8 @@ struct WholeBodyGains {
   double limit_margin = 0.05;       ///< before the end of the range [rad]
   /// The CoM sinks rather than let a leg be longer than this share of its length. A knee whips
   /// straight at the end of a long step, and while it is braked the foot flies on: h1_2, pushed
-  /// forward by 0.694 m/s early in a step of a walk at 0.3 m/s, falls in 1 of 16 trials with 0.93
-  /// and in all with 0.97. With 0.91 g1 falls more when it is pushed backwards.
+  /// forward by 0.694 m/s early in a step of a walk at 0.3 m/s, falls in no trial of 16, in 1 with
+  /// 0.93 and in 14 with 0.97. With 0.91 g1 falls more when it is pushed backwards.
   double leg_stretch = 0.92;
   double fallback_damping = 5.0;  ///< joint torque per velocity when a solve has failed [N m s]
 };
